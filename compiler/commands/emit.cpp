@@ -102,7 +102,7 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
     throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
-                                               : "no fits given (name fits, or use --all)");
+                                               : "no fits given (give fits, or use --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");

@@ -46,7 +46,7 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
-    throw usage_error(word + ": " + name + " has the " + std::string(kind_name(end.model->end)) +
+    throw usage_error(word + ": the model " + name + " has the " + std::string(kind_name(end.model->end)) +
                       " workflow, not " + std::string(name_of(kWorkflowKinds, *kind)) +
                       " (remove this option)");
   return end;

@@ -208,7 +208,7 @@ bool holds_something(const LayoutFile& file, const TextureSet& set, const Target
   });
 }
 
-// Reports channels without a meaning, because they have no place in layouts that name their files.
+// Reports channels that no result has. Layouts that name their files have no place for them.
 std::vector<std::string> unplaced(const TextureSet& set) {
   std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
@@ -220,8 +220,8 @@ std::vector<std::string> unplaced(const TextureSet& set) {
     if (names.empty()) continue;
     const bool is_one = names.size() == 1;
     messages.push_back(set.maps[map].path().string() + (is_one ? ": channel " : ": channels ") +
-                       joined(names, ", ") + (is_one ? " has no role and is" : " have no role and are") +
-                       " left out (--layout as-inputs keeps " + (is_one ? "it)" : "them)"));
+                       joined(names, ", ") + (is_one ? " is not used and is" : " are not used and are") +
+                       " skipped (--layout as-inputs keeps " + (is_one ? "it)" : "them)"));
   }
   return messages;
 }

@@ -216,7 +216,7 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
     if (!find_channel(reader, asked))
       throw Error(ErrorKind::kUsage,
                   name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
-  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + " instead of " +
+  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + ", but needs " +
                                      expected + " (choose with FILE:CHANNEL)");
 }
 

@@ -103,8 +103,8 @@ class ViewCheck {
     if (!buffer || !length || !offset)
       throw input_error(name + ": its buffer, byteOffset and byteLength are not whole numbers");
     if (*buffer >= lengths_.size())
-      throw input_error(name + ": names buffer " + std::to_string(*buffer) + ", of which there are " +
-                        std::to_string(lengths_.size()));
+      throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
+                        counted(lengths_.size(), "buffer"));
     if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
       throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
                         std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));

@@ -104,9 +104,9 @@ class ObjStream final : public std::streambuf {
 
   void warn() {
     if (dropped_ > 0)
-      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces left out");
+      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces skipped");
     if (small_ > 0)
-      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners left out");
+      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners skipped");
     if (fans_ > 0)
       scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
                                 std::to_string(kMostClippedCorners) +

@@ -106,7 +106,7 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(context + display_path(resource.path) + " uses itself as one of its own files");
+      throw input_error(context + display_path(resource.path) + " uses itself as one of its files");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
       continue;

@@ -39,11 +39,11 @@ void add_named(const ConvertOptions& options, JobList& list) {
   if (is_asset(options.output)) {
     if (inputs.size() > 1)
       throw usage_error("--output " + options.output.string() +
-                        ": is a file, but there are several assets (name a folder)");
+                        ": is a file, but there are several assets (give a folder)");
     if (!options.asset_root.empty())
       throw usage_error(
           "--root: cannot be used with an output file, since the tree of results mirrors it "
-          "(name a folder)");
+          "(give a folder)");
     require_format(options.folder, options.output);
     add({options.folder, options.output, folder_of_asset(options.folder), folder_of_asset(options.output)},
         list);

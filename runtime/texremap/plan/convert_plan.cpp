@@ -223,7 +223,7 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
                            ? std::string("--root, because DIR is the root already")
-                           : display_path(options.more_assets.front()) + " (name one folder)"));
+                           : display_path(options.more_assets.front()) + " (give one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +

@@ -419,8 +419,8 @@ void SetJobs::require_encoding_used() const {
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
     throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: has no effect, because the names of all maps say what "
-                "they hold (remove this option)");
+                "--roughness-encoding: has no effect, because the file names of all maps give "
+                "the encoding (remove this option)");
 }
 
 // Reserves the names of a set's results, and of copies of its maps. Adds a message and returns false if

@@ -35,8 +35,8 @@ void print_unrecognised(const JobList& list) {
   for (std::size_t i = 0; i < std::min(count, kShown); ++i)
     say("not recognised: " + list.unrecognised[i].string());
   if (count == 0) return;
-  say(counted(count, "image") + " left out, because no habit knows the name" +
-      (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
+  say(counted(count, "image") + " skipped, because no naming convention fits" +
+      (count > kShown ? "; --json lists all" : "") + " (--names FILE adds one)");
 }
 
 void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
@@ -46,7 +46,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     say(counted(more, "more warning") + " of the same kinds (--verbose lists them)");
   print_unrecognised(list);
   if (list.asset_count > 0)
-    say(counted(list.asset_count, "asset") + " left out (--assets converts assets instead of sets)");
+    say(counted(list.asset_count, "asset") + " skipped (--assets converts assets instead of sets)");
   std::size_t texels = 0, materials = 0, done = 0, done_before = 0;
   for (const JobReport& report : outcome.reports) {
     done += !report.failure_text() && !report.was_done;

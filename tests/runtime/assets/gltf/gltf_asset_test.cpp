@@ -184,7 +184,7 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
         "a.glb: /buffers/1: its byteLength is not a whole number");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
-        "a.glb: /bufferViews/0: names buffer 3, of which there are 0");
+        "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
         "a.glb: /bufferViews/0: its buffer, byteOffset and byteLength are not whole numbers");
   CHECK(
