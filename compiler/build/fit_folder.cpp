@@ -39,7 +39,7 @@ std::filesystem::path default_fit_folder() {
 
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
-    throw input_error(folder.string() + ": not a folder (name one with fits, *.json)");
+    throw input_error(folder.string() + ": not a folder (give a folder with fits, *.json)");
   FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName ||
@@ -72,8 +72,7 @@ AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder
     for (const WorkflowFit& fit : loaded.workflows) known.push_back(fit.id);
     for (const WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
-  throw usage_error(name + ": no file of this name, and no fit in " + folder.string() +
-                    suggestion(name, known));
+  throw usage_error(name + ": is not a file, and not a fit in " + folder.string() + suggestion(name, known));
 }
 
 Fit find_fit(const std::string& name, const std::filesystem::path& folder) {

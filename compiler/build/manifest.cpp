@@ -131,8 +131,7 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   for (const ManifestItem& item : items) known.push_back(item.id);
   const std::string id = field.text();
   if (std::find(known.begin(), known.end(), id) == known.end())
-    field.fail("unknown item " + id + " (an item must stand before those that use it)" +
-               suggestion(id, known));
+    field.fail("no item before this one has the id " + id + suggestion(id, known));
   return id;
 }
 
@@ -153,7 +152,8 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& c
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) throw input_error(context + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
-    if (!is_valid_id(id)) throw input_error(context + ": id \"" + id + "\" is not " + kIdRule);
+    if (!is_valid_id(id))
+      throw input_error(context + ": id \"" + id + "\" is not valid (use " + kIdRule + ")");
 }
 
 }  // namespace

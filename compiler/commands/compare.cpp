@@ -50,7 +50,7 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
     const Fit fit = find_fit(name, options.fit_folder);
     if (!converts(fit, table))
       throw input_error(name + ": converts " + fit.source.model + " to " + fit.target.model +
-                        ", but the table is of " + table.source.model + " to " + table.target.model);
+                        ", but the table is for " + table.source.model + " to " + table.target.model);
     fits.push_back({fit, std::filesystem::is_regular_file(name) ? name : file_of(name)});
   }
   if (options.fits.empty() && std::filesystem::is_directory(options.fit_folder))

@@ -42,7 +42,8 @@ FitFolder chosen_fits(const EmitCommand& options) {
 // Returns a file for each named fit.
 std::vector<GeneratedFile> generate_functions(const EmitCommand& options, const FitFolder& chosen) {
   if (!chosen.workflows.empty() || !chosen.warps.empty())
-    throw usage_error("--language: converters of whole materials are C++ headers only");
+    throw usage_error(
+        "--language: converters of whole materials can only become C++ headers (remove this option)");
   std::vector<GeneratedFile> files;
   for (const Fit& fit : chosen.fits)
     files.push_back({options.output / (fit.id + extension_of(*options.language)),
@@ -101,7 +102,7 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
     throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
-                                               : "no fits given (name fits, or use --all)");
+                                               : "no fits given (give fits, or use --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");

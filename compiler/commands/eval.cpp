@@ -90,7 +90,7 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
 
 void run(const EvalOptions& options) {
   if (options.table.path.empty() == (options.grid == 0))
-    throw usage_error("eval: name a table, or use --grid");
+    throw usage_error("eval: a table is required (give its file, or use --grid)");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output can only be used with --grid");
   require_new(options.output, options.force);

@@ -89,7 +89,8 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
   if (hidden.size() < kMostLayers && numbers <= kMostNetworkNumbers) return;
   throw usage_error("--layers: a network of " + std::to_string(hidden.size() + 1) + " layers and " +
                     std::to_string(numbers) + " numbers is too large (at most " +
-                    std::to_string(kMostLayers) + " and " + std::to_string(kMostNetworkNumbers) + ")");
+                    std::to_string(kMostLayers) + " layers and " + std::to_string(kMostNetworkNumbers) +
+                    " numbers)");
 }
 
 // Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.

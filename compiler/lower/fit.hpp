@@ -29,9 +29,8 @@ struct Limits {
   bool operator==(const Limits&) const = default;
 };
 
-// A PictureErrors states how much pictures of converted materials, and of copied numbers, differ from the
-// source's pictures. Materials and lights had no part in the choice of the numbers
-// (compiler/lights/pair_pictures.hpp).
+// A PictureErrors states how much pictures differ from the source's pictures, either with converted or with
+// copied numbers. The fit did not use these materials and lights (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // of display values under environments, percent of the display's range
   double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms

@@ -1,5 +1,5 @@
-// This file reads and writes parts of fit files as JSON. Several kinds of fits share them, and manifests,
-// too. Writers throw kNumeric if a number is not finite, readers throw kInput.
+// This file reads and writes the JSON parts that manifests and several kinds of fits have in common. Writers
+// throw kNumeric if a number is not finite. Readers throw kInput if a field is wrong.
 #pragma once
 
 #include <cstddef>

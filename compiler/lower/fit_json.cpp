@@ -327,8 +327,8 @@ AnyFit load_any_fit(const std::filesystem::path& path) {
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context) {
   if (const Fit* found = std::get_if<Fit>(&fit)) return *found;
   throw Error(kind, context +
-                        ": converts whole materials, but this needs a fit of roughness and specular "
-                        "(fits of materials can be listed, shown and emitted)");
+                        ": converts whole materials, but this command needs a fit of roughness and specular "
+                        "(use it with remapc list, show and emit)");
 }
 
 Fit fit_from_json(std::string_view text, const std::string& context) {

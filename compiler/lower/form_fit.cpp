@@ -132,7 +132,8 @@ double sum_of(const std::vector<TexelError>& errors) {
   return sum;
 }
 
-// A NormalEquations holds the gradient and the curvature of the sum of errors by the numbers.
+// A NormalEquations holds the derivatives of the sum of errors with respect to the numbers of the form: the
+// gradient and the curvature.
 struct NormalEquations {
   Eigen::MatrixXd curvature;
   Eigen::VectorXd gradient;

@@ -105,7 +105,7 @@ double proven_bound(const TexelFunction& error, const Domain& domain, double tar
   return queue.top().verdict.bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
 }
 
-// Returns the sum of magnitudes of a factor's terms. The second counts its operations.
+// Returns the sum of the magnitudes of a factor's terms.
 double magnitude(const FactorTerms& factor, double alpha, double t) {
   FactorTerms magnitudes = factor;
   for (std::vector<float>& row : magnitudes)
@@ -113,6 +113,7 @@ double magnitude(const FactorTerms& factor, double alpha, double t) {
   return factor_value(magnitudes, alpha, t);
 }
 
+// Returns the number of operations that compute a factor.
 std::size_t operations(const FactorTerms& factor) {
   std::size_t longest = 0;
   for (const std::vector<float>& row : factor) longest = std::max(longest, row.size());

@@ -84,9 +84,9 @@ struct WorkflowConversion {
   bool operator==(const WorkflowConversion&) const = default;
 };
 
-// Throws kInput, beginning with `context`, for a width other than roughness, glossiness or alpha, and for F0
-// or a prior out of range. Also throws it for Khronos' solver unless diffuse is scaled on both sides and F0
-// is above 0, and for a network without 6 inputs and 4 outputs.
+// Throws kInput, beginning with `context`, if the conversion breaks one of these rules. The width is
+// roughness, glossiness or alpha. F0 and the prior are in their ranges. Khronos' solver requires scaled
+// diffuse on both sides, and F0 above 0. A network has 6 inputs and 4 outputs.
 void require_valid(const WorkflowConversion& conversion, const std::string& context);
 
 // A MaterialParameter is a parameter of a material, with one row of texels per channel.

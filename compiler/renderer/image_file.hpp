@@ -24,7 +24,7 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 // Writes display values, 0 to 1, as an 8-bit PNG. The file appears complete or not at all. Throws kOutput.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-// Returns the bytes of such a PNG file. Throws kOutput if OpenImageIO cannot encode it.
+// Returns the bytes of the file that write_png() writes. Throws kOutput if OpenImageIO cannot encode it.
 std::string png_bytes(const Image& image);
 
 }  // namespace remap

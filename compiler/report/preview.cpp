@@ -344,7 +344,7 @@ Environment environment_of(const std::string& name_or_file, double exposure) {
   if (found == known.end() && !std::filesystem::exists(name_or_file))
     throw Error(ErrorKind::kUsage, "--light: unknown light '" + name_or_file +
                                        "' (choose headlight, degrees from -180 to 180, " +
-                                       environment_names(known) + ", or name an EXR or HDR file)");
+                                       environment_names(known) + ", or give an EXR or HDR file)");
   Environment environment = found == known.end() ? load_environment(name_or_file) : *found;
   const double scale = exposure / mean_luminance(environment);
   return exposed(std::move(environment), scale);

@@ -20,9 +20,9 @@ struct WorkflowMethod {
   MetallicReflection reflection;  // of the metallic material
 };
 
-// Returns equation (3) by both means with F0 0.03 and 0.04, Khronos' solver, the networks of `learned` and
-// the projection, in this order. Diffuse is plain; Khronos' solver is applied to such maps although its
-// convention differs, because importers do so. Networks of other conventions are skipped.
+// Returns the methods for plain diffuse. In order, they are equation (3) by both means with F0 0.03 and 0.04,
+// Khronos' solver, the networks of `learned` and the projection. Khronos' solver has another convention, but
+// importers apply it to such maps. Networks of other conventions are skipped.
 std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned);
 // Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
 // solver is made for this convention.

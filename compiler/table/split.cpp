@@ -24,7 +24,7 @@ std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
 
 Split split_record(std::uint64_t seed, double fraction, std::size_t rows) {
   if (!(fraction >= 0.0 && fraction <= 0.9))
-    throw usage_error("held-out share: " + number_text(fraction) + " is out of range (0 to 0.9)");
+    throw usage_error("--held-out: " + number_text(fraction) + " is out of range (0 to 0.9)");
   Split record;
   record.seed = seed;
   record.held_out_fraction = fraction;

@@ -94,8 +94,7 @@ class TableReader {
     remedy.back() = ';';
     csv_.fail(csv_.header.number, 1,
               "has no column " + wanted + remedy + " --columns " + wanted +
-                  "=NAME reads another one, --columns " + kPublished +
-                  " the table published with the paper)");
+                  "=NAME reads another column, --columns " + kPublished + " reads the table of the paper)");
   }
 
   void read_row(const CsvLine& line) {

@@ -25,7 +25,7 @@ void require_strokes(const MaterialRef& material, const std::vector<StrokePair>&
     const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
     if (overlap.share == 1.0)
       throw input_error(material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
-                        stroke_name(strokes, overlap.other) + " (erase one of the two there)");
+                        stroke_name(strokes, overlap.other) + " (erase one of the two strokes there)");
   }
 }
 

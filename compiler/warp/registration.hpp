@@ -10,7 +10,7 @@
 namespace remap {
 
 // A PointSets holds both materials as points. `common_axes` maps each source axis to the direction of the
-// same change of reflectance in the template. It is the rotation (or reflection) next to V_S^T V_T.
+// same change of reflectance in the template. It is the rotation (or reflection) closest to V_S^T V_T.
 struct PointSets {
   Occupancy source, target;
   Eigen::MatrixXd common_axes;  // dimension x dimension

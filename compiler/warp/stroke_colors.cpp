@@ -204,9 +204,10 @@ struct ColorStroke {
 };
 
 [[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
-  throw input_error(painting.path.string() + ": " + what +
-                    " (paint strokes in a few flat colors with a hard brush, on black, white or transparent, "
-                    "without a picture below)");
+  throw input_error(
+      painting.path.string() + ": " + what +
+      " (paint strokes in a few flat colors with a hard brush, on a plain black, white or transparent "
+      "background)");
 }
 
 // Removes the clusters that are edges of strokes. `first_stroke` is the first cluster after the background.
@@ -244,7 +245,7 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& ma
   }
   const auto blends = static_cast<double>(std::count(labels.begin(), labels.end(), kNoCluster)) - transparent;
   if (blends > kMostBlends * count)
-    fail_not_flat(painting, percent(blends / count) + " of the texels have none of the most frequent colors");
+    fail_not_flat(painting, percent(blends / count) + " of the texels are not in one of the flat colors");
   for (std::size_t c = 0; c < kept.size(); ++c) strokes[c].color = kept[c].color;
   std::erase_if(strokes, [](const ColorStroke& stroke) { return stroke.texels.empty(); });
   if (strokes.empty()) fail_not_flat(painting, "contains no stroke");

@@ -32,8 +32,9 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
 
 void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material) {
   if (4 * marked > 3 * material.width * material.height)
-    throw input_error(image.string() +
-                      ": strokes cover more than three quarters of the image (check whether it is inverted)");
+    throw input_error(
+        image.string() +
+        ": strokes cover more than three quarters of the image (check that the image is not inverted)");
 }
 
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material) {

@@ -70,8 +70,8 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
     }
     if (radii.size() < 2 || radii != layout.radii)
       throw input_error(context +
-                        ": requires columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
-                        "two radii, the same for each; the first name is " +
+                        ": requires columns named R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, with the "
+                        "same two or more radii for each; the first column is " +
                         (names.empty() ? "missing" : "'" + names.front() + "'"));
   }
   return layout;

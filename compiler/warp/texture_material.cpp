@@ -32,9 +32,9 @@ FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
     return set.state == SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
   });
   if (found.sets.size() != 1)
-    throw input_error(folder.string() + ": found " + std::to_string(found.sets.size()) +
-                      " texture sets by their names, but one is required (name its maps "
-                      "diffuse, specular and roughness)");
+    throw input_error(
+        folder.string() + ": contains " + std::to_string(found.sets.size()) +
+        " texture sets, but must contain exactly one (name the maps diffuse, specular and roughness)");
   if (found.sets[0].state == SetState::kFaulty)
     throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
                                                     : found.sets[0].remarks[0]);

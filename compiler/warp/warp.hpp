@@ -48,9 +48,9 @@ struct AppearanceMatch {
   double target_radius = 0.0;  // RMS spread of the template, in features
 };
 
-// Matches two materials. Deterministic, single-threaded. Uses at most 2^16 texels of the source and 2^18 of
-// the template, evenly spread, and all texels of strokes. Throws the errors of require_valid(),
-// appearance_features() and appearance_space().
+// Matches two materials in one thread. Equal inputs give equal results. It uses all texels of strokes, and
+// other texels evenly spread: at most 2^16 of the source and 2^18 of the template. Throws the errors of
+// require_valid(), appearance_features() and appearance_space().
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 

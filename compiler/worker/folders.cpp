@@ -73,8 +73,7 @@ fs::path shipped_worker_list() { return installed(REMAP_INSTALLED_WORKERS "/work
 PrivateFolder::PrivateFolder(const fs::path& given) {
   const fs::path parent = given.empty() ? folder_in_memory() : fs::absolute(given);
   if (!is_writable_folder(parent))
-    throw output_error(parent.string() +
-                       ": is not a folder that can be written to (make it, or choose another)");
+    throw output_error(parent.string() + ": is not a writable folder (create it, or choose another folder)");
   remove_abandoned(parent);
   std::string name = (parent / (kPrefix + owner_tag() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)

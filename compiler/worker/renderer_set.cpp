@@ -77,14 +77,13 @@ ModelDescription RendererSet::model(const std::string& name) const {
   }
   for (const WorkerEntry& worker : workers_) names.push_back(worker.name + "/...");
   const std::string nearest = nearest_name(name, names);
-  const std::string advice =
-      nearest.empty()
-          ? "`remapc renderers` lists the models of workers, `remapc list --models` the built-in ones; "
-            "--worker \"" +
-                name.substr(0, name.find('/')) + "=COMMAND\" connects another renderer"
-          : "did you mean " + nearest + "?";
-  throw Error(ErrorKind::kUsage,
-              name + ": unknown model of " + builtin_->version() + " and of the workers (" + advice + ")");
+  const std::string advice = nearest.empty()
+                                 ? "`remapc list --models` shows built-in models, `remapc renderers` shows "
+                                   "connected renderers; --worker \"" +
+                                       name.substr(0, name.find('/')) + "=COMMAND\" connects another renderer"
+                                 : "did you mean " + nearest + "?";
+  throw Error(ErrorKind::kUsage, name + ": is not a model of " + builtin_->version() +
+                                     " or of a connected renderer (" + advice + ")");
 }
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {

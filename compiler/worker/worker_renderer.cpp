@@ -10,9 +10,9 @@
 namespace remap {
 namespace {
 
-// This many processes may be lost for one picture. A lost machine can lose many processes at once, so only
-// losses of the same picture reveal a picture that ends every renderer. The last process is new. Otherwise,
-// if processes end after a certain number of pictures, one picture could meet the end of all three.
+// This many processes may be lost for one picture. Only losses for the same picture count, because a machine
+// that fails can lose many processes at once. The last try gets a new process. Old processes may all end
+// after the same number of pictures, and the picture would not be the cause.
 constexpr int kMostLosses = 3;
 
 // A pause checks this often for an interruption.

@@ -52,7 +52,7 @@ export async function startProgram(makeInstance, module, images) {
     FS.chdir('/');
     const status = instance.callMain(words);
     const more = err.length - MOST_LINES;
-    if (more > 0) err.splice(MOST_LINES / 2, more, `(${more} lines are left out)`);
+    if (more > 0) err.splice(MOST_LINES / 2, more, `(${more} lines are not shown)`);
     return { status, out, err };
   }
 

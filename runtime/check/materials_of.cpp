@@ -122,7 +122,7 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
     if (readings.empty())
       throw input_error(
           display_path(path) +
-          ": cannot tell the kind of map from its name (give the folder of its set, or --names FILE)");
+          ": cannot detect the kind of map from its name (give the folder of its set, or --names FILE)");
     CheckedMaterial material;
     material.path = path;
     material.name = display_path(path);

@@ -90,7 +90,8 @@ std::string root_of(const CheckedMaterial& material, const MaterialUse& use, boo
 
 }  // namespace
 
-// Finds data in sRGB by its tag, or by another map of the set with the same values without the curve.
+// Finds data maps that are encoded as sRGB. Either the file's tag says so, or another map of the set has the
+// same values in linear form.
 void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;

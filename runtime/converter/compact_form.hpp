@@ -28,7 +28,7 @@ using FactorTerms = std::vector<std::vector<float>>;
 
 struct Hinge {
   float turn = 0.0f, turn_by_alpha = 0.0f;  // turn alpha if specular is cut off
-  float bend = 0.0f;                        // at least 0; flattens the turn at larger cuts
+  float bend = 0.0f;                        // at least 0; reduces the turn if more is cut off
   float spread = 0.0f;                      // spreads specular if alpha is cut off
   bool operator==(const Hinge&) const = default;
 };
@@ -44,8 +44,8 @@ struct CompactForm {
 // Returns true if alpha and specular stay unchanged, because both models have one lobe.
 bool is_copy(const CompactForm& form);
 
-// Returns the count of numbers in P, Q, the pole and the hinge, and 0 for a copy. Limits are not counted,
-// because they belong to the target model.
+// Returns the count of the numbers in P, Q, the pole and the hinge. Returns 0 for a copy. Limits do not
+// count, because they belong to the target model.
 std::size_t number_count(const CompactForm& form);
 
 // Returns the value of a factor. `Scalar` is double, or a type that adds and multiplies with doubles.

@@ -11,10 +11,10 @@ void require_fit_file(const Field& root) {
   if (root["format"].text() != "remap-fit") root.fail("not a fit file (\"format\" must be \"remap-fit\")");
   const std::int64_t version = root["version"].count();
   if (version != kFitFormatVersion)
-    root.fail("has format version " + std::to_string(version) + "; this program reads version " +
+    root.fail("has format version " + std::to_string(version) + ", but this program reads version " +
               std::to_string(kFitFormatVersion) +
-              (version < kFitFormatVersion ? " (fit its table again by remapc fit)"
-                                           : " (a newer remap wrote it: use that)"));
+              (version < kFitFormatVersion ? " (run remapc fit on its table again)"
+                                           : " (use the newer remap that wrote it)"));
 }
 
 bool is_of_materials(const Field& root) {

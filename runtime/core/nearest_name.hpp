@@ -14,8 +14,8 @@ namespace remap {
 // candidate.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-// Returns the candidate with the smallest such distance, however large, and the first of equal ones.
-// `candidates` must not be empty.
+// Returns the candidate with the smallest distance to `name`, even if it is not close. If several have this
+// distance, returns the first. `candidates` must not be empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
 
 // Returns up to `count` close candidates. Candidates that contain `name` or that `name` contains come first;

@@ -46,7 +46,7 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
-    throw usage_error(word + ": " + name + " has the " + std::string(kind_name(end.model->end)) +
+    throw usage_error(word + ": the model " + name + " has the " + std::string(kind_name(end.model->end)) +
                       " workflow, not " + std::string(name_of(kWorkflowKinds, *kind)) +
                       " (remove this option)");
   return end;
@@ -101,9 +101,9 @@ void choose_diffuse(const ConversionRequest& request, const WorkflowModel& sourc
   }
   const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
   choice.assumptions.push_back(
-      "the diffuse color of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
-      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (" + request.words.diffuse_convention + " " +
-      (is_plain ? "scaled" : "plain") + " changes that)");
+      "the diffuse convention of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
+      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (if not, use " +
+      request.words.diffuse_convention + " " + (is_plain ? "scaled" : "plain") + ")");
 }
 
 void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {

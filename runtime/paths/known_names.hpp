@@ -13,7 +13,7 @@ struct KnownName {
   std::string_view word;   // word for `--from` and `--to`, such as `unreal`
 };
 
-// Returns engines, modellers, renderers and texture libraries. Their words are aliases or models.
+// Returns engines, modellers, renderers and texture libraries. Each `word` is an alias or a model.
 std::span<const KnownName> known_programs();
 std::span<const KnownName> known_formats();
 // Returns a list of objects {"title", "name", "model"}.

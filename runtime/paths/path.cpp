@@ -185,10 +185,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
-      throw Error(ErrorKind::kUsage,
-                  model +
-                      ": the path would use this model twice (choose a source, a target and models "
-                      "between that differ)");
+      throw Error(ErrorKind::kUsage, model + ": the path would use this model twice (choose another model)");
     nodes.push_back(node(model));
   };
   add(request.source, "source model", sources);
@@ -205,12 +202,12 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     const auto legs = least_paths(*graph_, {waypoints[i], waypoints[i + 1]}, 1);
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
-      throw Error(ErrorKind::kUsage,
-                  from + " to " + to + ": no converters lead there (" + from + " reaches " +
-                      (reached.empty() ? "nothing" : joined(reached, ", ")) +
-                      (reached.empty() ? "" : ", of which " + closest_name(to, reached) + " is nearest") +
-                      "; " + to + " is reached from " +
-                      (reaching_it.empty() ? "nothing" : joined(reaching_it, ", ")) + ")");
+      throw Error(ErrorKind::kUsage, from + " to " + to + ": no converters lead there (" + from +
+                                         " converts to " +
+                                         (reached.empty() ? "no model" : joined(reached, ", ")) +
+                                         (reached.empty() ? "" : "; closest: " + closest_name(to, reached)) +
+                                         "; models that convert to " + to + ": " +
+                                         (reaching_it.empty() ? "none" : joined(reaching_it, ", ")) + ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }

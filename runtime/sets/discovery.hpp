@@ -51,7 +51,7 @@ struct FoundSet {
   std::vector<std::string> remarks;  // messages of one line about a skipped or faulty set
 };
 
-// Returns all places in the maps of a set whose role `wanted` accepts.
+// Returns the maps, or the channels of packed maps, that have a role for which `wanted` returns true.
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 // Returns the channel names for a request, or nothing for the whole image.
 std::vector<std::string> channel_names(Channels channels);

@@ -139,7 +139,7 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
   return storage;
 }
 
-// Returns a new map, for a parameter that is a constant in the set or is in another file there.
+// Returns a new map for a parameter. In the set, the parameter is a constant or part of another file.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
@@ -208,7 +208,7 @@ bool holds_something(const LayoutFile& file, const TextureSet& set, const Target
   });
 }
 
-// Reports channels without a meaning, because they have no place in layouts that name their files.
+// Reports channels that no result has. Layouts that name their files have no place for them.
 std::vector<std::string> unplaced(const TextureSet& set) {
   std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
@@ -220,8 +220,8 @@ std::vector<std::string> unplaced(const TextureSet& set) {
     if (names.empty()) continue;
     const bool is_one = names.size() == 1;
     messages.push_back(set.maps[map].path().string() + (is_one ? ": channel " : ": channels ") +
-                       joined(names, ", ") + (is_one ? " has no role and is" : " have no role and are") +
-                       " left out (--layout as-inputs keeps " + (is_one ? "it)" : "them)"));
+                       joined(names, ", ") + (is_one ? " is not used and is" : " are not used and are") +
+                       " skipped (--layout as-inputs keeps " + (is_one ? "it)" : "them)"));
   }
   return messages;
 }
@@ -291,9 +291,9 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   }
   for (const CarriedParameter& carried : set.carried) {
     if (!carried.parameter.is_map())
-      throw Error(ErrorKind::kUsage, "--" + carried.name +
-                                         ": a number has no place in --layout as-inputs (give a map, or use "
-                                         "another layout)");
+      throw Error(ErrorKind::kUsage,
+                  "--" + carried.name +
+                      ": --layout as-inputs cannot store a number (give a map, or use another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
     const auto is_written = [&](const PlannedMap& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);

@@ -216,7 +216,7 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
     if (!find_channel(reader, asked))
       throw Error(ErrorKind::kUsage,
                   name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
-  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + " instead of " +
+  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + ", but needs " +
                                      expected + " (choose with FILE:CHANNEL)");
 }
 
@@ -310,7 +310,7 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
   std::error_code none;
   if (text.ends_with('%') && numbers(text.substr(0, text.size() - 1)) && !fs::exists(fs::path(text), none))
     throw Error(ErrorKind::kUsage, std::string(option) + ": '" + std::string(text) +
-                                       "' is neither a number nor a file (0.3 is 30 %)");
+                                       "' is not a number or a file (write 30 % as 0.3)");
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0 || text.find('/', colon) != std::string_view::npos ||
       fs::exists(fs::path(text), none))

@@ -217,7 +217,7 @@ TEST_CASE("A folder of sets leaves out its assets", "[assets][slow]") {
   session.make("lib/w_diffuse.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   session.make("lib/w_specularGlossiness.png", test_spec(4, 4, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
   CHECK_THAT(require_success(session.texremap("convert lib --to gltf -o out")).errors,
-             Contains("1 asset left out"));
+             Contains("1 asset skipped"));
 }
 
 // A material of real files by the maps of the same material.

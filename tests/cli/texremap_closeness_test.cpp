@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string kDiffer = "pictures differ by ", kCloser = " matches the highlight more closely";
+const std::string kDiffer = "rendered pictures differ by ", kCloser = " matches the highlight more closely";
 
 ProcessResult path(const std::string& from, const std::string& to, const Words& more = {}) {
   const Session session;
@@ -38,8 +38,8 @@ nlohmann::json json_of(const ProcessResult& result) {
 std::string measured_text(const std::string& id) {
   const JudgedPictures pictures = load_fit(REMAP_SOURCE_DIR "/fits/" + id + ".json").pictures.value();
   const auto percent = [](double rmse) { return fixed(rmse, 1) + " %"; };
-  return kDiffer + percent(pictures.converted.rmse) + ", with copied numbers by " +
-         percent(pictures.copied.rmse);
+  return kDiffer + percent(pictures.converted.rmse) + " (" + percent(pictures.copied.rmse) +
+         " with copied numbers)";
 }
 
 std::size_t line_count(const std::string& text) {

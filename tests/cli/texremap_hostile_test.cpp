@@ -197,18 +197,18 @@ TEST_CASE("texremap hostile: a manifest leads nowhere else") {
     return run.last_error();
   };
   CHECK(refusal(R"("folder":"")", R"("folder":"../other")") ==
-        "texremap: m.jsonl: line 2: \"../other\" leads out of its folder (texremap index again)");
+        "texremap: m.jsonl: line 2: \"../other\" leads out of its folder (run texremap index again)");
   CHECK(refusal(R"("folder":"")", R"("folder":"/etc")") ==
-        "texremap: m.jsonl: line 2: \"/etc\" is an absolute path (texremap index again)");
+        "texremap: m.jsonl: line 2: \"/etc\" is an absolute path (run texremap index again)");
   CHECK(refusal(R"("name":"x")", R"("name":"x/y")") ==
-        "texremap: m.jsonl: line 2: \"x/y\" is not a name (texremap index again)");
+        "texremap: m.jsonl: line 2: \"x/y\" is not a name (run texremap index again)");
   CHECK(refusal(R"("name":"x")", R"("name":"x\ny")") ==
-        "texremap: m.jsonl: line 2: \"x\\x0ay\" has control characters (texremap index again)");
+        "texremap: m.jsonl: line 2: \"x\\x0ay\" has control characters (run texremap index again)");
   folder.put_asset("as/a.gltf", "a.bin");
   REQUIRE(folder.texremap("index as --assets -o m.jsonl --quiet --force").exit_code == 0);
   folder.change_manifest(R"("a.gltf")", "\"" + folder.path("as/a.gltf") + "\"");
   CHECK_THAT(folder.texremap("convert --manifest m.jsonl --to gltf -o deep --force").last_error(),
-             Contains("is an absolute path (texremap index again)"));
+             Contains("is an absolute path (run texremap index again)"));
 }
 
 TEST_CASE("texremap hostile: links out of the folder of the inputs are read when they are asked for") {

@@ -173,7 +173,7 @@ TEST_CASE("texremap layouts: in words, with a constant, and a channel without a 
   const ProcessResult result = require_success(session.texremap(
       Words("convert in --from unity --to gltf -o out --layout") +
       Words(std::vector<std::string>{"Packed=smoothness,1,metallic,occlusion; *_c=base_color"})));
-  CHECK_THAT(result.errors, Contains("stone_MaskMap.png: channel B has no role and is left out"));
+  CHECK_THAT(result.errors, Contains("stone_MaskMap.png: channel B is not used and is skipped"));
   CHECK(channel(session, "out/wood_Packed.png", 0) ==
         complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
   CHECK(channel(session, "out/wood_Packed.png", 1) == std::vector<float>(kLayoutSize * kLayoutSize, 1.0f));

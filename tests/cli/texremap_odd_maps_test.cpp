@@ -54,7 +54,7 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected", "[
     INFO(result.errors);
     if (count == 2 && extension != "png") {  // a PNG with two channels is grey with alpha
       CHECK(result.exit_code == 1);
-      CHECK_THAT(result.last_error(), Contains(name + ": has the channels R, G instead of R, G and B"));
+      CHECK_THAT(result.last_error(), Contains(name + ": has the channels R, G, but needs R, G and B"));
       continue;
     }
     REQUIRE(result.exit_code == 0);

@@ -200,7 +200,7 @@ TEST_CASE("texremap parts: files that are gone or have another size fail their s
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors,
              Contains("s0_spec.png: is in the manifest, but cannot be read (run texremap index again)") &&
-                 Contains("the manifest says"));
+                 Contains("but the manifest lists"));
   std::string states = set_states(result.output);
   std::sort(states.begin(), states.end());
   CHECK(states == "ccccccff");
@@ -336,7 +336,8 @@ TEST_CASE("texremap parts: an asset that fails is named, and files that changed 
   CHECK(summary["converted"] == 3);
   CHECK(summary["failed"] == 2);
   const std::string errors = tree.texremap("merge-reports out").errors;
-  CHECK_THAT(errors, Contains("broken.gltf: ") && Contains("lamp.gltf: ") && Contains("the manifest says"));
+  CHECK_THAT(errors,
+             Contains("broken.gltf: ") && Contains("lamp.gltf: ") && Contains("but the manifest lists"));
   CHECK_FALSE(exists(tree, "out/a/lamp.gltf"));
   CHECK(exists(tree, "out/b/chair.gltf"));
 }

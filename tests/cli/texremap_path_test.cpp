@@ -21,8 +21,8 @@ const std::string kId = "mitsuba_ward_to_mitsuba_as";
 // The errors of the converter: `image 0.1, SSIM 0.9, fit rms 0.2 in alpha and 0.3 in f0`.
 std::string ward_to_as_difference() {
   const PictureDifference pictures = find_converter("mitsuba/ward", "mitsuba/as").info().pictures.value();
-  return "pictures differ by " + fixed(pictures.converted, 1) + " %, with copied numbers by " +
-         fixed(pictures.copied, 1) + " %\n";
+  return "rendered pictures differ by " + fixed(pictures.converted, 1) + " % (" + fixed(pictures.copied, 1) +
+         " % with copied numbers)\n";
 }
 
 double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }

@@ -84,7 +84,8 @@ TEST_CASE("texremap tree: a failed set does not stop the others and makes the ex
   CHECK(json["sets"][0]["state"] == "converted");
   CHECK_THAT(json["sets"][1]["failure"].get<std::string>(), Contains("size 48x48 does not match "));
   CHECK_THAT(json["sets"][2]["failure"].get<std::string>(), Contains("e_rough.png"));
-  CHECK_THAT(result.errors, Contains("in/c: no specular map found (or use --specular VALUE"));
+  CHECK_THAT(result.errors,
+             Contains("in/c: no specular map found (for sets without this map, use --specular VALUE"));
   CHECK_THAT(result.errors, Contains("2 roughness maps found: d_Roughness.exr (roughness), d_rough.png "
                                      "(roughness); keep one"));
   CHECK_THAT(result.errors, Contains("skipped: in/f: no roughness or glossiness map found"));

@@ -118,7 +118,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
   // first.
   CHECK_THAT(result.errors,
-             Contains("the diffuse color of mitsuba/ward is assumed to be scaled, as in gltf"));
+             Contains("the diffuse convention of mitsuba/ward is assumed to be scaled, as in gltf"));
   for (int y = 0; y < kWorkflowSize; y += 3)
     for (int x = 0; x < kWorkflowSize; ++x) {
       const float alpha = r.at(x, y, 0);
@@ -195,7 +195,8 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   warned(words, "texels reflect more than 1; clamped to 1");
   write_specular(session);
   warned(words,
-         "the diffuse color of specular and metallic is assumed to be plain (--diffuse-convention scaled");
+         "the diffuse convention of specular and metallic is assumed to be plain (if not, use "
+         "--diffuse-convention scaled");
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });

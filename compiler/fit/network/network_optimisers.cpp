@@ -112,7 +112,8 @@ class NetworkLoss : public ceres::FirstOrderFunction {
   VectorXd decay_;
 };
 
-// An IterationWatch passes the parameters to the watch and the report after each iteration of Ceres.
+// An IterationWatch is called after each iteration of Ceres. It ends the training if the validation error no
+// longer improves, or if the caller wants to stop.
 class IterationWatch : public ceres::IterationCallback {
  public:
   IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)

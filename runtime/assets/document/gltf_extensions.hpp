@@ -14,7 +14,7 @@ inline constexpr std::string_view kSpecGlossExtension = "KHR_materials_pbrSpecul
                                   kPointerExtension = "KHR_animation_pointer",
                                   kTransformExtension = "KHR_texture_transform";
 
-// Returns true if the extension changes what a material reflects or transmits, besides core.
+// Returns true if the extension adds to what core materials reflect or transmit.
 bool is_reflecting(std::string_view extension);
 // Returns true for KHR_ and EXT_ extensions that are known not to affect materials.
 bool is_known_extension(std::string_view extension);

@@ -67,7 +67,7 @@ void TextReader::add_unit(std::uint32_t unit, std::uint64_t begin, std::string& 
 }
 
 void TextReader::refuse(std::uint64_t begin) const {
-  throw input_error(context_ + ": has half a character of UTF-16 at byte " + std::to_string(begin) +
+  throw input_error(context_ + ": has an incomplete UTF-16 character at byte " + std::to_string(begin) +
                     " (save it as UTF-8)");
 }
 

@@ -23,7 +23,7 @@ class TextReader {
       : source_(source), context_(context), encoding_(encoding_of(source)) {}
 
   // Returns the next block as UTF-8, including a byte order mark. Returns an empty text at the end. Throws
-  // kInput, beginning with `context`, for UTF-16 with half a character.
+  // kInput, beginning with `context`, for UTF-16 with an incomplete character.
   std::string next();
 
  private:

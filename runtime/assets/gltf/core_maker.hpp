@@ -43,7 +43,7 @@ class CoreMaker {
   CoreTexts convert(GltfMaterial& material, AssetMaterial& report);
 
  private:
-  // A Made is the result for a set of images, with the numbers of new images. It holds no pixels.
+  // A Made is the result for a set of images. It has the indices of the new images, but not their pixels.
   struct Made {
     MetalRoughMaps maps;
     std::optional<std::size_t> base_image, metal_rough_image;

@@ -9,6 +9,7 @@
 #include "assets/gltf/gltf_conversion.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -102,11 +103,11 @@ class ViewCheck {
     if (!buffer || !length || !offset)
       throw input_error(name + ": its buffer, byteOffset and byteLength are not whole numbers");
     if (*buffer >= lengths_.size())
-      throw input_error(name + ": names buffer " + std::to_string(*buffer) + ", of which there are " +
-                        std::to_string(lengths_.size()));
+      throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
+                        counted(lengths_.size(), "buffer"));
     if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
       throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
-                        std::to_string(*buffer) + ", which has " + std::to_string(size));
+                        std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));
   }
 
   SpanValue root_;

@@ -9,6 +9,7 @@
 #include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -19,8 +20,8 @@ constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // bytes of a f
 
 SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, const char* name) {
   if (index >= list.size())
-    throw input_error("names " + std::string(name) + " " + std::to_string(index) + ", of which there are " +
-                      std::to_string(list.size()));
+    throw input_error("refers to " + std::string(name) + " " + std::to_string(index) + ", but the file has " +
+                      counted(list.size(), name));
   return list[index];
 }
 

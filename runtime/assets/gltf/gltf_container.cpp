@@ -48,8 +48,8 @@ void require_header(const ByteSource& source, const std::string& context) {
   if (source.size() < kHeaderSize) throw input_error(context + ": is cut off in its header");
   const std::string header = source.read(0, kHeaderSize);
   if (const std::uint32_t version = number_in(header, 4); version != 2)
-    throw input_error(context + ": is a glTF container of version " + std::to_string(version) +
-                      "; version 2 is read");
+    throw input_error(context + ": is a GLB file of version " + std::to_string(version) +
+                      ", but only version 2 can be read");
   if (const std::uint64_t length = number_in(header, 8); length != source.size())
     throw input_error(context + ": its header says " + std::to_string(length) + " bytes, but the file has " +
                       std::to_string(source.size()) + " (it is cut off or damaged)");

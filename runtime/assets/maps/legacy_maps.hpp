@@ -44,7 +44,7 @@ ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, cha
 // values are the stored ones. Alpha changes only if `with_alpha`.
 ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha);
 
-// Replaces a channel by a channel of a map of the same size (load_scalar_row()).
+// Replaces a channel by the values that load_scalar_row() loads from another map of the same size.
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
 // Loads `count` values of row `y`, from 0 to 1. They come from MTL's channel for scalar maps (-imfchan).

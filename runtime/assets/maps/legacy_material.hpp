@@ -21,8 +21,8 @@ struct LegacyMaterial {
   static constexpr double kLeastExponent = 1.0, kMostExponent = 10000.0;
 };
 
-// A GgxLobe is the lobe of the material as GGX: glTF's roughness (the square root of alpha), 0 to 1, and F0
-// of each channel, 0 to 1, the same at every angle.
+// A GgxLobe is the lobe of the material as GGX. Roughness is glTF's (the square root of alpha). F0 has a
+// value for each channel and does not change with the angle. All values are 0 to 1.
 struct GgxLobe {
   double roughness = 1.0;
   std::array<double, 3> f0{};

@@ -21,7 +21,7 @@ std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::st
                                          const AssetResources* resources = nullptr);
 
 // Returns the text of an MTL file as UTF-8. Throws kInput, beginning with `context`, if it is too long, and
-// for UTF-16 with half a character.
+// for UTF-16 with an incomplete character.
 std::string mtl_text(const ByteSource& source, const std::string& context);
 
 // Returns true if a word names an image: map_Kd, bump, norm and the like, in lower case.

@@ -104,9 +104,9 @@ class ObjStream final : public std::streambuf {
 
   void warn() {
     if (dropped_ > 0)
-      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces left out");
+      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces skipped");
     if (small_ > 0)
-      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners left out");
+      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners skipped");
     if (fans_ > 0)
       scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
                                 std::to_string(kMostClippedCorners) +
@@ -456,7 +456,8 @@ class ObjReader {
                         ": a face cannot be read (its indices must be whole numbers other than 0)");
     if (warning.find("invalid vertex index") != std::string::npos ||
         warning.find("out of bounds") != std::string::npos)
-      throw input_error(context_ + ": a face names a vertex, normal or texture coordinate that is not there");
+      throw input_error(context_ +
+                        ": a face refers to a vertex, normal or texture coordinate that does not exist");
     for (const auto* values : {&attributes_.vertices, &attributes_.texcoords, &attributes_.colors})
       if (!std::ranges::all_of(*values, [](float value) { return std::isfinite(value); }))
         throw input_error(context_ + ": a coordinate is too large for a number of 32 bits");
@@ -514,7 +515,7 @@ class ObjReader {
                       const std::string& shape) const {
     if (index >= 0 ? static_cast<std::size_t>(index) < count : may_be_missing && index == -1) return;
     throw input_error(context_ + ": a face" + (shape.empty() ? "" : " of \"" + plain(shape, 80) + "\"") +
-                      " names a " + name + " that is not there; there are " + std::to_string(count));
+                      " refers to a " + name + " that does not exist; there are " + std::to_string(count));
   }
 
   const std::string& context_;

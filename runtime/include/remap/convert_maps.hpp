@@ -24,7 +24,7 @@ namespace remap {
 // encoding of the map. All members are 0 if they were not requested.
 struct ParameterStatistics {
   static constexpr std::size_t kBins = 32;
-  float min = 0.0f;  // over finite values; min and max are 0 without any
+  float min = 0.0f;  // of the finite values; 0 if there are none
   float max = 0.0f;
   std::size_t finite_count = 0;
   std::array<std::size_t, kBins>
@@ -134,8 +134,8 @@ struct MapConversion : MapTreatment {
   // parameters have one channel, or several equal channels, of which the first is used. kInput reports the
   // first texel where they differ by more than the tolerance.
   std::map<Parameter, SourceParameter> sources;
-  // The targets to store. They may share the memory of the sources. Colors have as many channels as the
-  // converter makes, or three for grey. Every channel of another parameter receives its value.
+  // These targets are stored. They may share the memory of the sources. A color has as many channels as the
+  // converter makes; a grey one may also have three. Other parameters are stored in all of their channels.
   std::map<Parameter, TargetParameter> targets;
   // Holds the opacity. Texels with coverage 0 or less are converted, too, but do not count in statistics.
   std::optional<ConstChannelView> coverage;

@@ -105,8 +105,8 @@ inline constexpr std::size_t kLongestName = 128;
 
 // This is the rule for ids as messages state it.
 inline constexpr const char* kIdRule =
-    "a C++ identifier of at most 128 letters, without leading or doubled underscore, that C++ does not use "
-    "itself";
+    "at most 128 letters, digits and single underscores, beginning with a letter, but no C++ keyword or "
+    "macro";
 
 // Returns true if `id` follows kIdRule, so that it can name a namespace and a file. C++ reserves its
 // keywords, `std` and the macros of its headers.

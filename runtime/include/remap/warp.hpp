@@ -17,8 +17,8 @@
 
 namespace remap {
 
-// A compiled appearance warp (An et al. 2011) gives texels of one material the reflectances of another. It
-// has coordinates in closed form, and a table of the template's parameters over them.
+// A compiled appearance warp (An et al. 2011) gives texels of one material the reflectances of another. A
+// closed formula maps a texel to coordinates. A table has the template's parameters at these coordinates.
 
 // A WarpTexel has a diffuse lobe and a specular lobe: diffuse reflectance (R, G, B), specular reflectance at
 // normal incidence or scale (R, G, B), and alpha, the microfacet width. Both reflectances are linear.

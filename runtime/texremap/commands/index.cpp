@@ -75,7 +75,7 @@ void index(const IndexOptions& options) {
   if (options.quiet) return;
   if (unrecognised > 0)
     print_message(kProgram, counted(unrecognised, "image") +
-                                " left out, because no habit knows the name (--names FILE teaches one)");
+                                " skipped, because no naming convention fits (--names FILE adds one)");
   print_message(kProgram, counted(head.count, noun_of(head.kind)) + " of " +
                               counted(head.file_count, "file") + ", " +
                               fixed(static_cast<double>(head.bytes) * 1e-9, 2) + " GB, in " +

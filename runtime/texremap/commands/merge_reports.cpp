@@ -54,7 +54,7 @@ void merge(const MergeOptions& options) {
   const std::string text = counted(merged.part_count, "part") + ": " +
                            counted(merged.converted, noun_of(merged.kind)) + " converted, " +
                            std::to_string(merged.failed) + " failed, " + std::to_string(merged.done_before) +
-                           " done before, " + std::to_string(merged.skipped) + " left out; " +
+                           " done before, " + std::to_string(merged.skipped) + " skipped; " +
                            fixed(merged.processor_seconds, 1) + " s of processor time";
   if (!merged.problems.empty()) throw input_error(text + "; " + counted(merged.problems.size(), "problem"));
   if (merged.failed > 0) throw input_error(text);

@@ -101,7 +101,7 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   Command command("The options of texremap convert", "texremap convert");
   ConvertOptions options;
   add_convert_options(command, options);
-  const std::string reason = ": texremap plan adds this option itself (remove it after --)";
+  const std::string reason = ": texremap plan adds this option itself (remove this option)";
   for (const std::string& word : words)
     if (const std::string name = word.substr(0, word.find('=')); (command.tags_of(name) & kOfPlan) != 0)
       throw usage_error(name + reason);

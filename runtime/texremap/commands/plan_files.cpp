@@ -171,13 +171,13 @@ void require_writable(PlanKind kind, const PlannedFarm& farm) {
   words.push_back(farm.program);
   for (const std::string& word : words) {
     if (std::ranges::any_of(word, is_control))
-      refuse(word, "a plan cannot hold line breaks and other control characters");
-    if (kind == PlanKind::kOpenJd && !is_utf8(word)) refuse(word, "a template of OpenJD must be UTF-8");
+      refuse(word, "a plan cannot contain line breaks or other control characters");
+    if (kind == PlanKind::kOpenJd && !is_utf8(word)) refuse(word, "an OpenJD template must be UTF-8");
   }
   for (const std::string& option : farm.options)
     if (kind == PlanKind::kOpenJd &&
         (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos))
-      refuse(option, "a template of OpenJD cannot hold {{ or }}");
+      refuse(option, "an OpenJD template cannot contain {{ or }}");
   // Refuse backslashes: sbatch would then not replace the number of a part in the rest of the name.
   if (kind == PlanKind::kSlurm && farm.folder.string().find('\\') != std::string::npos)
     refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");

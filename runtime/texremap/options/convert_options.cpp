@@ -310,10 +310,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->common()
       ->tag(kChangesResults | kNeedsFolder);
   command.retire("--compact",
-                 "texremap always removes unused images (remove this option; --compression 9 makes new "
-                 "images smallest)");
-  command.retire("--allow-skips",
-                 "sets without anything to convert no longer make a run fail (remove this option)");
+                 "is no longer needed: texremap always removes unused images (remove this option; "
+                 "--compression 9 makes new images as small as possible)");
+  command.retire(
+      "--allow-skips",
+      "is no longer needed: texremap skips sets that have nothing to convert (remove this option)");
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
   command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
   command.retire("--profile",
@@ -321,9 +322,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--bad-texels", "is now called --nan");
   command.retire("--output-roughness-factor", "is now called --exponent-of-white");
   command.retire("--prior", "is now called --metallic-bias");
-  command.retire(
-      "--copy-others",
-      "texremap copies all maps of a set (remove this option; --only-converted leaves the others out)");
+  command.retire("--copy-others",
+                 "is no longer needed: texremap copies all maps of a set (remove this option; "
+                 "--only-converted writes only converted maps)");
   command.add_flag("--force", options.force, "Overwrite files that exist; convert again what is done")
       ->common()
       ->tag(kForAssets | kNeedsFiles);

@@ -79,9 +79,9 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
   if (!last) return count;
   const std::size_t all = *last + 1 - first;
   if (count && *count != all)
-    throw usage_error("--part auto: the array has " + std::to_string(*count) + " of the numbers " +
+    throw usage_error("--part auto: the array has only " + std::to_string(*count) + " of the numbers " +
                       std::to_string(first) + " to " + std::to_string(*last) +
-                      " (give --part auto/N, with N of the whole array)");
+                      " (give --part auto/N; N is the size of the whole array)");
   return all;
 }
 
@@ -94,7 +94,7 @@ GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
   if (!count) count = own_count(first);
   if (!count)
     throw usage_error("--part auto: " + std::string(scheduler_.name) +
-                      " does not tell the size of the array (give --part auto/N)");
+                      " does not report the size of the array (give --part auto/N)");
   if (index < first || index - first >= *count)
     throw usage_error("--part auto" + (is_given ? "/" + std::to_string(*count) : "") + ": " + text() +
                       " is not between " + std::to_string(first) + " and " +
@@ -150,7 +150,8 @@ GivenPart part_of(const std::string& word, const ArrayJob::Environment& environm
   if (first == "auto" && count && *count > 0) return part_in(environment, count);
   const auto index = number_in(first);
   if (!index || !count || *index < 1 || *index > *count)
-    throw usage_error("--part: invalid value '" + word + "' (use I/N with I from 1 to N, auto or auto/N)");
+    throw usage_error("--part: invalid value '" + word +
+                      "' (for four parts, use 1/4 to 4/4, auto or auto/4)");
   return {{*index, *count}, ""};
 }
 

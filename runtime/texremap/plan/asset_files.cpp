@@ -22,8 +22,8 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
   const fs::path inner = folder.lexically_normal().lexically_relative(root.lexically_normal());
   for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
     if (place.empty() || place.is_absolute() || *place.begin() == "..")
-      throw input_error(display_path(path) + ": leads out of " + display_path(root) +
-                        " (copy it into this folder, or name one above that holds both by --root)");
+      throw input_error(display_path(path) + ": is outside the folder " + display_path(root) +
+                        " (copy the file into this folder, or give --root a folder that contains both)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
     throw input_error(display_path(path) + ": has a name of texremap's own files (rename it)");
@@ -106,7 +106,7 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(context + display_path(resource.path) + " uses itself as one of its own files");
+      throw input_error(context + display_path(resource.path) + " uses itself as one of its files");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
       continue;

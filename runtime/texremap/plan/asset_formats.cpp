@@ -35,9 +35,8 @@ const AssetFormat* format_of(const fs::path& path) {
 AssetKind kind_of_asset(const fs::path& path) { return format_of(path)->kind; }
 
 constexpr const char* kObjRemedy =
-    " becomes a glTF file (name the output *.glb or *.gltf, or give --format glb; its MTL file is an asset "
-    "of "
-    "its own)";
+    " becomes a glTF file (name the output *.glb or *.gltf, or give --format glb; to keep MTL, give the MTL "
+    "file instead)";
 
 }  // namespace
 
@@ -61,12 +60,12 @@ std::string asset_words(const std::string& format) {
 
 std::string result_extension(const fs::path& input, const std::string& format) {
   if (!format.empty() && format != "glb" && format != "gltf")
-    throw usage_error("--format " + format + ": OBJ files become glb or gltf");
+    throw usage_error("--format " + format + ": OBJ files can become glb or gltf (use --format glb)");
   const bool is_obj = kind_of_asset(input) == AssetKind::kObj;
   if (is_obj && format.empty()) throw usage_error(display_path(input) + kObjRemedy);
   if (!is_obj && !format.empty())
     throw usage_error("--format " + format + ": " + display_path(input) +
-                      " keeps its format (only OBJ files change it, to glTF)");
+                      " keeps its format (remove this option, which is for OBJ files)");
   return format.empty() ? "" : "." + format;
 }
 

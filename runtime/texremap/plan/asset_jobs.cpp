@@ -39,11 +39,11 @@ void add_named(const ConvertOptions& options, JobList& list) {
   if (is_asset(options.output)) {
     if (inputs.size() > 1)
       throw usage_error("--output " + options.output.string() +
-                        ": is a file, but there are several assets (name a folder)");
+                        ": is a file, but there are several assets (give a folder)");
     if (!options.asset_root.empty())
       throw usage_error(
           "--root: cannot be used with an output file, since the tree of results mirrors it "
-          "(name a folder)");
+          "(give a folder)");
     require_format(options.folder, options.output);
     add({options.folder, options.output, folder_of_asset(options.folder), folder_of_asset(options.output)},
         list);
@@ -53,7 +53,8 @@ void add_named(const ConvertOptions& options, JobList& list) {
     const fs::path root = options.asset_root.empty() ? folder_of_asset(input) : options.asset_root;
     const fs::path below = input.lexically_normal().lexically_relative(root.lexically_normal());
     if (below.empty() || *below.begin() == "..")
-      throw usage_error("--root " + root.string() + ": " + display_path(input) + " does not lie below it");
+      throw usage_error("--root " + root.string() + ": " + display_path(input) +
+                        " is not inside this folder");
     add({input, options.output / result_name(below, options), root, options.output}, list);
   }
 }
@@ -74,8 +75,8 @@ void add_tree(const ConvertOptions& options, JobList& list) {
   for (const WalkProblem& problem : walk.problems) list.skipped.push_back({problem.message, true});
   list.is_of_folder = list.has_several = true;
   if (list.jobs.empty())
-    throw usage_error(display_path(options.folder) + ": no " + asset_words(options.format) + " in it" +
-                      (options.recursive ? "" : " (--recursive looks into its subfolders)"));
+    throw usage_error(display_path(options.folder) + ": contains no " + asset_words(options.format) +
+                      (options.recursive ? "" : " (--recursive also searches its subfolders)"));
 }
 
 void add_listed(const ConvertOptions& options, const Listing& listing, JobList& list) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
 
 // Returns the color space of each of `colors` that `words` name. Throws kUsage for a word that applies to
-// none of them. `reason` ends the message: "no specular is a result".
+// none of them. `reason` ends the message: "no specular is written".
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {
@@ -101,9 +101,9 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
-      throw Error(ErrorKind::kUsage,
-                  parameter_option(parameter) +
-                      " cannot be used with a folder, whose maps come along (remove this option)");
+      throw Error(ErrorKind::kUsage, parameter_option(parameter) +
+                                         " cannot be used with a folder, because texremap copies the maps of "
+                                         "the folder (remove this option)");
   require_read(options, workflow);
   if (!is_tree) require_parameters(options, workflow);
 }
@@ -308,7 +308,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   if (workflow.changes_nothing && options.bad_texels == BadTexels::kKeep)
     choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
-                                        written_colors(choice.parameters), "is a result");
+                                        written_colors(choice.parameters), "is written");
   require_encoding(options, choice);
   return choice;
 }

@@ -70,8 +70,8 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
       std::filesystem::weakly_canonical(output, failure)
           .lexically_relative(std::filesystem::weakly_canonical(tree, failure));
   if (!output.empty() && !below.empty() && *below.begin() != "..")
-    throw usage_error("--output " + output.string() + ": lies in " + tree.string() +
-                      ", the tree of the manifest (choose a folder outside of it)");
+    throw usage_error("--output " + output.string() + ": is inside " + tree.string() +
+                      ", the folder of the manifest (choose a folder outside " + tree.string() + ")");
 }
 
 // Returns a warning if roughness maps of a folder are read in an encoding that few tools write, or "".
@@ -84,7 +84,7 @@ std::string encoding_warning(const ConvertOptions& options, const JobList& list,
   if (!matters) return "";
   return "warning: roughness maps are read as " + std::string(encoding_name(source.roughness)) +
          ", the parameter of " + source.model +
-         " (use --roughness-encoding roughness if they hold its square root)";
+         " (if the maps hold the square root of alpha, use --roughness-encoding roughness)";
 }
 
 // Reads the entries of this run from the manifest, if there is one. DIR becomes the root of the tree.
@@ -191,13 +191,11 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
 
 // Refuses layouts of engines for assets: textures stay in their asset, so it cannot become a folder of maps.
 void refuse_engine(const ConvertOptions& options) {
-  const NamedLayout* const engine = engine_layout_of(options.to.word());
-  if (engine == nullptr) return;
-  throw usage_error("--to " + std::string(options.to.word()) +
-                    ": textures are not taken out of assets such as " + display_path(options.folder) +
-                    " (convert it by --to gltf, which engines import; or export its textures, as with "
-                    "Blender, and convert their folder by --to " +
-                    std::string(engine->name) + ")");
+  if (engine_layout_of(options.to.word()) == nullptr) return;
+  throw usage_error(
+      "--to " + std::string(options.to.word()) + ": texremap does not extract textures from assets such as " +
+      display_path(options.folder) +
+      " (use --to gltf, which engines import, or export the textures and convert their folder)");
 }
 
 // Fills in missing options: without --to, assets become gltf. Without --output the second path is the result.
@@ -220,16 +218,16 @@ void require_asset_options(const ConvertOptions& options) {
                         " (remove this option)");
   if (!is_tree)
     refuse(options, kNeedsTree,
-           ": applies to folders of assets only (remove this option, or name a folder and --assets)");
+           ": applies only to folders of assets (remove this option, or give a folder and --assets)");
   if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
                            ? std::string("--root, because DIR is the root already")
-                           : display_path(options.more_assets.front()) + " (name one folder)"));
+                           : display_path(options.more_assets.front()) + " (give one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
     throw usage_error("--from " + options.from.name +
-                      ": texremap reads from the file what its materials are (remove this option)");
+                      ": texremap reads the material model from the file (remove this option)");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +
                       ": the materials of an asset can become gltf or gltf-specgloss (use --to gltf)");
@@ -248,7 +246,8 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
     return;
   refuse(options, kNeedsGltf, ": applies to glTF files only (remove this option)");
   if (options.to.name != "gltf")
-    throw usage_error("--to " + options.to.name + ": materials of MTL and OBJ files become gltf");
+    throw usage_error("--to " + options.to.name +
+                      ": materials of MTL and OBJ files can only become gltf (use --to gltf)");
 }
 
 AssetOptions asset_options(const ConvertOptions& options) {
@@ -280,7 +279,7 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
   refuse(options, kNeedsAsset,
-         ": works only for assets (remove it, name a glTF, MTL or OBJ file, or --assets)");
+         ": applies only to assets (remove this option, give a glTF, MTL or OBJ file, or add --assets)");
   return false;
 }
 

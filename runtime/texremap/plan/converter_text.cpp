@@ -31,9 +31,9 @@ std::string difference_text(const ConverterPath& path) {
   }
   const std::optional<PathDifference> difference = picture_difference(path);
   if (!difference) return "nobody has compared pictures";
-  return std::string("pictures differ by ") + (difference->is_estimate ? "about " : "") +
+  return std::string("rendered pictures differ by ") + (difference->is_estimate ? "about " : "") +
          percent_text(difference->converted) +
-         (difference->copied ? ", with copied numbers by " + percent_text(*difference->copied) : "");
+         (difference->copied ? " (" + percent_text(*difference->copied) + " with copied numbers)" : "");
 }
 
 std::string models_text(const ConverterPath& path) {

@@ -23,17 +23,17 @@ std::string range_text(std::string_view name, const Range& range);
 // Returns the domain of a converter, such as `alpha 0.01 to 1, specular 0 to 0.5`.
 std::string domain_text(const ConverterInfo& info);
 
-// Returns `pictures differ by 8.0 %, with copied numbers by 14.1 %`, or for an estimate `pictures differ by
-// about 8.4 %`. Other texts are `both models have the same lobe, so that numbers are copied` and `nobody has
-// compared pictures`. `path` must have steps.
+// Returns `rendered pictures differ by 8.0 % (14.1 % with copied numbers)`, or for an estimate `rendered
+// pictures differ by about 8.4 %`. Other texts are `both models have the same lobe, so that numbers are
+// copied` and `nobody has compared pictures`. `path` must have steps.
 std::string difference_text(const ConverterPath& path);
 
 // Returns `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.
 std::string models_text(const ConverterPath& path);
 
-// Returns `mitsuba/ward to cycles-5/ggx: pictures differ by about 8.2 %; cycles-5/beckmann matches the
-// highlight more closely`, or one of these parts, or that numbers are copied. Returns an empty text below 1
-// %, which nobody sees.
+// Returns `mitsuba/ward to cycles-5/ggx: rendered pictures differ by about 8.2 %; cycles-5/beckmann matches
+// the highlight more closely`, or one of these parts, or that numbers are copied. Returns an empty text below
+// 1 %, which nobody sees.
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer);
 
 // Returns `cycles-5/beckmann matches the highlight more closely`.

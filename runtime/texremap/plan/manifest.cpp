@@ -21,7 +21,7 @@ constexpr std::int64_t kFormat = 1;
 constexpr std::string_view kCostFirst = "{\"cost\":";
 constexpr std::size_t kLongestHead = 1 << 16;
 constexpr std::int64_t kMostTile = 999'999'999;
-constexpr const char* kChanged = "is incomplete, or was changed since it was written (texremap index again)";
+constexpr const char* kChanged = "is incomplete or was edited (run texremap index again)";
 
 // Returns true if a conversion may read the map. No conversion reads maps of normals or heights.
 bool is_read(const FoundMap& map) {
@@ -161,7 +161,7 @@ class ManifestReader {
     try {
       return checked(text, path_.string() + ": line " + std::to_string(lines_.number()));
     } catch (const Error& error) {
-      throw UnsafeName{std::string(error.what()) + " (texremap index again)"};
+      throw UnsafeName{std::string(error.what()) + " (run texremap index again)"};
     }
   }
 
@@ -173,16 +173,17 @@ class ManifestReader {
 ManifestHead ManifestReader::read_head() {
   const std::string_view line = lines_.next().value_or("");
   if (!line.starts_with("{\"remap_manifest\":") || line.size() > kLongestHead)
-    refuse("is no manifest (texremap index DIR -o FILE writes one)");
+    refuse("is not a manifest (texremap index DIR -o FILE writes one)");
   const Json json = parse_json(line, path_.string());
   const Field field(json, path_.string());
   ManifestHead head;
   head.version = field["version"].text();
   if (const std::int64_t format = field["remap_manifest"].count(); format != kFormat)
-    refuse("is of format " + std::to_string(format) + ", this texremap reads format " +
-           std::to_string(kFormat) + " (texremap index again)");
+    refuse("has format " + std::to_string(format) + ", but this texremap reads format " +
+           std::to_string(kFormat) + " (run texremap index again)");
   if (head.version != kVersion)
-    refuse("is of version " + head.version + " of texremap, this is " + kVersion + " (texremap index again)");
+    refuse("was written by texremap " + head.version + ", but this is texremap " + kVersion +
+           " (run texremap index again)");
   head.root = field["root"].any_text();
   head.names = field["names"].text();
   head.kind = field.contains("assets") ? ListedKind::kAssets : ListedKind::kSets;
@@ -374,8 +375,8 @@ void require_as_listed(const ListedSizes& files) {
           file.string() + ": is in the manifest, but cannot be read (run texremap index again)",
           errno_of(failure));
     if (size != bytes)
-      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, the manifest says " +
-                        std::to_string(bytes) + " (texremap index again)");
+      throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, but the manifest lists " +
+                        std::to_string(bytes) + " (run texremap index again)");
   }
 }
 

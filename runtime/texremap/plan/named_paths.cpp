@@ -18,20 +18,20 @@ namespace {
 // This is the advice for a file that texremap does not read.
 constexpr std::string_view kExport = "convert it to glTF or OBJ first, for example with Blender";
 constexpr std::string_view kTextures =
-    "export its textures and convert their folder, or write its values: --roughness 0.3";
+    "export its textures and convert their folder, or give values such as --roughness 0.3";
 constexpr std::string_view kUsd = "the Python package converts its materials: texremap usd FILE";
 constexpr std::string_view kMujoco =
-    "write its numbers, 128 times shininess: texremap convert --from mujoco --to gltf --roughness 64 "
-    "--specular 0.2 --diffuse 0.5";
+    "give its values instead: texremap convert --from mujoco --to gltf --roughness 64 --specular 0.2 "
+    "--diffuse 0.5; the roughness is 128 times the shininess";
 constexpr std::string_view kPhong =
-    "write its numbers: texremap convert --from opengl --to gltf --roughness 64 --specular 0.2 --diffuse 0.5";
-constexpr std::string_view kRadiance =
-    "write its numbers: texremap convert --from radiance/plastic --to gltf --roughness 0.1 --specular 0.05 "
+    "give its values instead: texremap convert --from opengl --to gltf --roughness 64 --specular 0.2 "
     "--diffuse 0.5";
+constexpr std::string_view kRadiance =
+    "give its values instead: texremap convert --from radiance/plastic --to gltf --roughness 0.1 --specular "
+    "0.05 --diffuse 0.5";
 constexpr std::string_view kModels =
-    "write its numbers: texremap convert --from MODEL --to gltf --roughness 0.3 --specular 0.04 --diffuse "
-    "0.5; "
-    "texremap list";
+    "give its values instead: texremap convert --from MODEL --to gltf --roughness 0.3 --specular 0.04 "
+    "--diffuse 0.5; texremap list shows the models";
 
 struct UnreadFormat {
   std::string_view extensions, name, remedy;

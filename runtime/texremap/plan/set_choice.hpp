@@ -10,8 +10,8 @@
 
 namespace remap {
 
-// Returns the maps of a set that may hold a parameter, by the best role found. Some sets call their base
-// color diffuse, or their diffuse color albedo.
+// Returns the maps of a set that may hold a parameter. Only the maps with the most suitable role are
+// returned, because some sets call their base color diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter);
 
 // Keeps one of several maps that hold a parameter. First comes the one that a word of `prefer` names (a role,

@@ -231,8 +231,8 @@ void SetJobs::add(FoundSet set) {
                   "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(context(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
-      return fail(context(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
-                  " VALUE for such sets)");
+      return fail(context(set) + ": no " + name + " map found (for sets without this map, use " +
+                  parameter_option(parameter) + " VALUE)");
   }
   if (!takes_names(set)) return;
   converted_.push_back(set);
@@ -419,8 +419,8 @@ void SetJobs::require_encoding_used() const {
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
     throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: has no effect, because the names of all maps say what "
-                "they hold (remove this option)");
+                "--roughness-encoding: has no effect, because the file names of all maps give "
+                "the encoding (remove this option)");
 }
 
 // Reserves the names of a set's results, and of copies of its maps. Adds a message and returns false if
@@ -510,8 +510,9 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   Discovery found = find_sets(options.folder, discovery);
   if (found.sets.empty() && found.problems.empty() && !found.others.empty())
     throw usage_error(display_path(options.folder) + ": no texture set found by file names, but " +
-                      counted(found.others.size(), "asset") + ", such as " +
-                      display_path(found.others.front()) + " (--assets converts them)");
+                      counted(found.others.size(), "asset") +
+                      (found.others.size() == 1 ? ": " : ", such as ") + display_path(found.others.front()) +
+                      " (--assets converts " + (found.others.size() == 1 ? "it" : "them") + ")");
   return found;
 }
 

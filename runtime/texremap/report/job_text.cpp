@@ -59,7 +59,7 @@ std::string files_text(const JobReport& report) {
 std::string left_behind_text(const JobReport& report) {
   std::vector<std::string> names;
   for (const std::filesystem::path& file : report.left_behind) names.push_back(file.filename().string());
-  return "left out: " + joined(names, ", ");
+  return "skipped: " + joined(names, ", ");
 }
 
 double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {

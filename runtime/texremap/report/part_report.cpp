@@ -64,9 +64,9 @@ std::vector<Part> ReportMerger::parts_found() const {
       parts.push_back(*part);
   std::ranges::sort(parts, {}, [](const Part& part) { return std::pair(part.count, part.index); });
   if (parts.empty())
-    throw input_error(output_.string() +
-                      ": holds no report of a part (texremap convert --manifest FILE --part "
-                      "I/N writes one when it has finished)");
+    throw input_error(
+        output_.string() +
+        ": contains no part reports (texremap convert --manifest FILE --part I/N writes one when it ends)");
   return parts;
 }
 
@@ -76,7 +76,7 @@ void ReportMerger::compare(const Part& part, const Field& said) {
     if (said.contains(name)) own[name] = said[name].any_text();
   if (said["index"].count() != static_cast<std::int64_t>(part.index) ||
       said["count"].count() != static_cast<std::int64_t>(part.count))
-    problem(name_of(part) + kPartReport + ": is the report of another part (convert this one again)");
+    problem(name_of(part) + kPartReport + ": is the report of another part (convert this part again)");
   if (first_.empty()) {
     first_ = own;
     first_part_ = part;
@@ -85,10 +85,11 @@ void ReportMerger::compare(const Part& part, const Field& said) {
         static_cast<std::size_t>(said[std::string(name_of(kListedKinds, merged_.kind))].count());
     return;
   }
+  const auto shown = [](const std::string& value) { return value.empty() ? "none" : value; };
   for (const auto& [name, value] : own)
     if (first_[name] != value) {
-      problem(name_of(part) + ": " + name + " " + value + ", but " + name_of(first_part_) + " has " +
-              first_[name] + " (convert one of them again)");
+      problem(name_of(part) + ": has " + name + " " + shown(value) + ", but " + name_of(first_part_) +
+              " has " + shown(first_[name]) + " (convert one of these parts again)");
       return;
     }
 }
@@ -97,8 +98,8 @@ void ReportMerger::compare(const Part& part, const Field& said) {
 void ReportMerger::require_once(const Part& part, const std::string& what, const std::string& name) {
   const auto [found, is_new] = part_of_.try_emplace(what + name, part.index);
   if (is_new) return;
-  auto& [count, first] =
-      twice_[what + " in " + name_of(Part{found->second, part.count}) + " and in " + name_of(part)];
+  auto& [count, first] = twice_[name_of(Part{found->second, part.count}) + " and " + name_of(part) +
+                                " contain the same " + what];
   if (count++ == 0) first = name;
 }
 
@@ -184,12 +185,12 @@ MergedReport ReportMerger::merge() {
   for (std::size_t i = 0; i < has.size(); ++i)
     if (!has[i]) missing.push_back(std::to_string(i + 1));
   if (!missing.empty())
-    problem("no report of " + counted(missing.size(), "part") + ": " + named(missing) +
-            " (convert them again)");
+    problem(counted(missing.size(), "part") + (missing.size() == 1 ? " has" : " have") + " no report: " +
+            named(missing) + " (convert " + (missing.size() == 1 ? "it" : "them") + " again)");
   for (const auto& [where, cases] : twice_)
-    problem("the same " + where + ": " + display_path(cases.second) +
-            (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") + " (two " +
-            noun_of(merged_.kind) + "s must not give one file: rename one)");
+    problem(where + ": " + display_path(cases.second) +
+            (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") +
+            " (rename one of the two " + noun_of(merged_.kind) + "s)");
   return std::move(merged_);
 }
 

@@ -35,8 +35,8 @@ void print_unrecognised(const JobList& list) {
   for (std::size_t i = 0; i < std::min(count, kShown); ++i)
     say("not recognised: " + list.unrecognised[i].string());
   if (count == 0) return;
-  say(counted(count, "image") + " left out, because no habit knows the name" +
-      (count > kShown ? "; --json lists all" : "") + " (--names FILE teaches one)");
+  say(counted(count, "image") + " skipped, because no naming convention fits" +
+      (count > kShown ? "; --json lists all" : "") + " (--names FILE adds one)");
 }
 
 void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
@@ -46,7 +46,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     say(counted(more, "more warning") + " of the same kinds (--verbose lists them)");
   print_unrecognised(list);
   if (list.asset_count > 0)
-    say(counted(list.asset_count, "asset") + " left out (--assets converts assets instead of sets)");
+    say(counted(list.asset_count, "asset") + " skipped (--assets converts assets instead of sets)");
   std::size_t texels = 0, materials = 0, done = 0, done_before = 0;
   for (const JobReport& report : outcome.reports) {
     done += !report.failure_text() && !report.was_done;
@@ -54,10 +54,12 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     texels += report.statistics.texel_count;
     materials += report.count(MaterialState::kConverted);
   }
-  std::string text = counted(done, noun_of(list.kind)) +
-                     (plan.dry_run ? " would be converted" : " converted") +
-                     (plan.sets() == nullptr ? "" : " by " + converter_text(plan.sets()->chosen)) + ", " +
-                     std::to_string(outcome.failed_count()) + " failed";
+  std::string text =
+      counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted") +
+      (plan.sets() == nullptr ? ""
+                              : (plan.sets()->chosen.workflow.is_material() ? " from " : " by ") +
+                                    converter_text(plan.sets()->chosen)) +
+      ", " + std::to_string(outcome.failed_count()) + " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
   if (!plan.dry_run)
     text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) +
@@ -66,7 +68,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
   say(text);
 }
 
-// Throws if an entry failed, or a material of a single asset.
+// Throws if an entry failed. For a single asset, also throws if one of its materials failed.
 void require_success(const Outcome& outcome) {
   const JobList& list = outcome.plan.list;
   const std::size_t all = outcome.reports.size() + list.skipped.size();

@@ -13,10 +13,10 @@
 
 namespace remap {
 
-// A Reporter prints the outcome. JSON is one object for a single set or asset. For several it is one object
-// per line, as soon as it is known: `{"part": ...}` for a part of a manifest, `{"conversion": ...}`,
-// `{"skipped": ...}` for each entry that is not converted, `{"set": ...}` or `{"asset": ...}`, and
-// `{"summary": ...}` last.
+// A Reporter prints the outcome. For a single set or asset, JSON is one object. For several, JSON is one
+// object per line, printed as soon as it is known. The lines are `{"part": ...}` for a part of a manifest,
+// `{"conversion": ...}`, `{"skipped": ...}` for each entry that is not converted, `{"set": ...}` or
+// `{"asset": ...}`, and at the end `{"summary": ...}`.
 class Reporter {
  public:
   // Prints what was assumed and what is skipped. `plan` must outlive this object.

@@ -154,7 +154,7 @@ class Copies {
     if (!copy.job) return;
     const std::size_t job = *copy.job;
     copy.job.reset();
-    // Only the system, if memory runs out, or another person kills a process with signal 9.
+    // If memory runs out, the system kills a process with signal 9. Otherwise, a person did so.
     jobs_.clean(job);
     const bool is_killed = how.starts_with("by signal 9 ");
     if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);

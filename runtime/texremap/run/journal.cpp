@@ -179,19 +179,10 @@ std::string shown_note(const std::string& text) {
   return text.empty() ? "none" : plain(text, kShown);
 }
 
-std::string details_of(const ConversionNote& note) {
-  std::string text = shown_note(note.source) + " to " + shown_note(note.target);
-  constexpr std::size_t kShown = 8;
-  for (std::size_t i = 0; i < std::min(note.details.size(), kShown); ++i)
-    if (const auto& [name, value] = note.details[i]; !value.empty())
-      text += ", " + shown_note(name) + " " + shown_note(value);
-  return text;
-}
-
-// Returns the first difference: `target mitsuba/ggx there, mitsuba/as here`.
+// Returns the first difference: `target mitsuba/ggx before, mitsuba/as now`.
 std::string difference(const ConversionNote& owner, const ConversionNote& own) {
-  const auto differ = [](const std::string& what, const std::string& there, const std::string& here) {
-    return what + " " + shown_note(there) + " there, " + shown_note(here) + " here";
+  const auto differ = [](const std::string& what, const std::string& before, const std::string& now) {
+    return what + " " + shown_note(before) + " before, " + shown_note(now) + " now";
   };
   if (owner.source != own.source) return differ("source", owner.source, own.source);
   if (owner.target != own.target) return differ("target", owner.target, own.target);
@@ -244,8 +235,9 @@ struct Journal::State {
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
     throw Error(ErrorKind::kOutput,
-                folder.string() + ": belongs to another conversion, " + details_of(*content.owner) + " (" +
-                    difference(*content.owner, conversion) + "; choose another folder, or --force)");
+                folder.string() + ": belongs to another conversion, " + shown_note(content.owner->source) +
+                    " to " + shown_note(content.owner->target) + " (" +
+                    difference(*content.owner, conversion) + "; choose another folder, or use --force)");
   }
   void append(const Json& json);
 };

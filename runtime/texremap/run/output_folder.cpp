@@ -27,8 +27,8 @@ void OutputFolder::require_free(const fs::path& file) const {
   // If the user names the maps, they may be other maps with the same name.
   if (is_own && plan_.list.is_of_folder) return;
   throw output_error(file.string() + ": already exists" +
-                     (is_own     ? ", made from other maps"
-                      : journal_ ? ", and is not of this conversion"
+                     (is_own     ? " and was made from other maps"
+                      : journal_ ? " and was not made by this conversion"
                                  : "") +
                      " (--force overwrites)");
 }

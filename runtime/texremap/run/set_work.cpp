@@ -21,7 +21,7 @@ namespace {
 
 using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 
-// Returns each file once, because a file of several parts is several maps.
+// Returns each file once, although each part of a file is a map of its own.
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
@@ -369,8 +369,8 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
     throw usage_error("--dither: has no effect, because no result has 8 bits (remove this option)");
   if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
     throw usage_error(
-        "--compression: has no effect, because no result is PNG, or EXR or TIFF with zip (remove this "
-        "option)");
+        "--compression: has no effect, because it is for PNG, and for EXR and TIFF with zip compression "
+        "(remove this option)");
 }
 
 std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {

@@ -193,8 +193,7 @@ void OpenedNewImage::check_finished() const {
     image->read_rows(first, row_count, rows.data());
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kOutput) throw;
-    const std::string reason = std::string(error.what()).substr(finished_file().string().size());
-    fail("cannot be written completely" + in_words(reason));
+    fail("cannot be written completely (check the free space)");
   }
 }
 

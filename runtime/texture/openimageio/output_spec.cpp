@@ -85,7 +85,7 @@ void suit_openexr(OIIO::ImageSpec& spec) {
 void suit_tiff(OIIO::ImageSpec& spec) {
   // OpenImageIO 2.4 cannot write this tag, and drops all of Exif with it.
   spec.erase_attribute("Exif:ImageHistory");
-  // IPTC data is written on request only, and then with a copy of the artist.
+  // OpenImageIO writes IPTC data only if this attribute is set. It then also writes the artist as creator.
   const auto is_iptc = [](const OIIO::ParamValue& value) {
     return value.name().string().starts_with("IPTC:");
   };

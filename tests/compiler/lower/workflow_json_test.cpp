@@ -45,7 +45,7 @@ TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
   refuses("\"scaled\"", "\"linear\"", "source.diffuse: expected plain or scaled, found \"linear\"");
   refuses("\"workflow\": \"specular\"", "\"workflow\": \"metallic\"", "expected \"specular\" on this side");
   refuses("\"glossiness\"", "\"exponent\"", "choose roughness, glossiness or alpha");
-  refuses("\"a_to_b\"", "\"a to b\"", "expected a C++ identifier");
+  refuses("\"a_to_b\"", "\"a to b\"", "expected at most 128 letters");
   refuses("\"version\": 4", "\"version\": 9", "format version 9");
 }
 

@@ -154,7 +154,7 @@ TEST_CASE("renderer set: a worker is started when one of its models is requested
   const RendererSet renderers({session.entry()}, session.settings());
   CHECK(renderers.model("mitsuba/ggx").name == "mitsuba/ggx");
   CHECK(session.log_lines("process").empty());
-  CHECK_THROWS_WITH(renderers.model("fakee/ggx"), Contains("and of the workers"));
+  CHECK_THROWS_WITH(renderers.model("fakee/ggx"), Contains("or of a connected renderer"));
   CHECK(renderers.model("fake/ggx").name == "fake/ggx");
   CHECK(session.log_lines("process").size() == 1);
   CHECK(renderers.version_of("fake/ggx") == "Fake 1");

@@ -226,7 +226,7 @@ TEST_CASE("worker: a folder that cannot be used is an error that says what to do
   settings.folder = session.path("missing");
   CHECK_THROWS_WITH(
       WorkerRenderer(session.entry(), settings),
-      session.path("missing") + ": is not a folder that can be written to (make it, or choose another)");
+      session.path("missing") + ": is not a writable folder (create it, or choose another folder)");
   CHECK(session.log_lines("process").empty());
   for (const char* fault : {"elsewhere", "no-file"})
     CHECK_THAT(

@@ -61,7 +61,7 @@ TEST_CASE("UTF-16 becomes UTF-8 and the same bytes again", "[assets]") {
 
 TEST_CASE("Half a character of UTF-16 is refused with its place", "[assets]") {
   const auto refusal = [](int byte) {
-    return "file: has half a character of UTF-16 at byte " + std::to_string(byte) + " (save it as UTF-8)";
+    return "file: has an incomplete UTF-16 character at byte " + std::to_string(byte) + " (save it as UTF-8)";
   };
   CHECK(decoding_refusal(std::string("\xff\xfen\0x", 5)) == refusal(4));
   CHECK(decoding_refusal(std::string("\xfe\xff\0n\xd8\x3d\0n", 8)) == refusal(4));

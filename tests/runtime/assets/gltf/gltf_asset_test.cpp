@@ -163,13 +163,13 @@ TEST_CASE("Damaged containers are refused", "[assets]") {
             "a.glb: the chunk at byte 12 should have 4294967280 bytes, but the file ends after ") == 0);
   lies = good;
   lies.replace(4, 4, four_bytes(1));
-  CHECK(asset_failure(lies) == "a.glb: is a glTF container of version 1; version 2 is read");
+  CHECK(asset_failure(lies) == "a.glb: is a GLB file of version 1, but only version 2 can be read");
   lies = good;
   lies.replace(16, 4, "BIN ");
   CHECK(asset_failure(lies) == "a.glb: its first chunk is not JSON");
   CHECK(asset_failure("glTF" + four_bytes(2) + four_bytes(12)) == "a.glb: has no JSON chunk");
   CHECK(asset_failure("{}") == "a.glb: has no asset.version (it is not a glTF file)");
-  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") == "a.glb: is glTF 1.0; version 2 is read");
+  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") == "a.glb: is glTF 1.0, but only glTF 2 can be read");
   CHECK(asset_failure(R"({"asset":{"version":"2.0"},"materials":{}})") ==
         "a.glb: materials: expected a list");
 }
@@ -180,11 +180,11 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
   };
   CHECK(asset_failure(with(
             R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteOffset":1,"byteLength":4}])")) ==
-        "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, which has 4");
+        "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, but the buffer has only 4 bytes");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
         "a.glb: /buffers/1: its byteLength is not a whole number");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
-        "a.glb: /bufferViews/0: names buffer 3, of which there are 0");
+        "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
         "a.glb: /bufferViews/0: its buffer, byteOffset and byteLength are not whole numbers");
   CHECK(

@@ -180,7 +180,7 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
   CHECK(failure(R"("index":0)", R"("index":2)") ==
         "its diffuse image has 6x5 texels, its specular glossiness image 6x4 (use --resample, or "
         "--extensions)");
-  CHECK(failure(R"("index":9)", R"("index":1)") == "names texture 9, of which there are 3");
+  CHECK(failure(R"("index":9)", R"("index":1)") == "refers to texture 9, but the file has 3 textures");
 }
 
 TEST_CASE("Images in files and in URIs stay what they are", "[assets]") {

@@ -337,15 +337,15 @@ TEST_CASE("MTL files are found with spaces, backslashes, several on a line", "[a
 }
 
 TEST_CASE("Damaged OBJ files are refused", "[assets]") {
-  const std::string gone = "names a vertex, normal or texture coordinate that is not there";
+  const std::string gone = "refers to a vertex, normal or texture coordinate that does not exist";
   CHECK(refusal_of("") == "file.obj: has no faces");
   CHECK(refusal_of(kTriangle) == "file.obj: has no faces");
   CHECK(refusal_of(kTriangle + "f 1 2 9\n").find(gone) != std::string::npos);
   CHECK(refusal_of(kTriangle + "f 1/9 2/2 3/3\n").find(gone) != std::string::npos);
   CHECK(refusal_of(kTriangle + "f 1 2 3 9\n").find(gone) != std::string::npos);
-  CHECK(refusal_of(kTriangle + "f 1 2 -9\n").find("that is not there") != std::string::npos);
+  CHECK(refusal_of(kTriangle + "f 1 2 -9\n").find("that does not exist") != std::string::npos);
   CHECK(refusal_of(kTriangle + "f 1 2 3 -9\n").find(gone) != std::string::npos);
-  CHECK(refusal_of(kTriangle + "f 1 2 3 2 -9\n").find("that is not there") != std::string::npos);
+  CHECK(refusal_of(kTriangle + "f 1 2 3 2 -9\n").find("that does not exist") != std::string::npos);
   CHECK(refusal_of(kTriangle + "f 1 2 0\n").find("whole numbers other than 0") != std::string::npos);
   for (const std::string index :
        {"4294967297", "-4294967293", "+99999999999999999999", "3/4294967297", "3//2147483648"})
