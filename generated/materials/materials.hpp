@@ -747,10 +747,10 @@ inline OpenPbrSurface standard_surface_to_open_pbr_surface(const StandardSurface
   const float s = source.specular;
   const float f = least(0.9f, f0(n) + (1.0f - f0(n)) * 0.047619f);
   const float kept = (1.0f - s * f) / (1.0f - f);
-  // Oren-Nayar to EON of less roughness and less colour. Error .06 to .10, of .07 to .45 for the copied value.
+  // Oren-Nayar to EON of less roughness and less colour. Error .02 to .06, of .07 to .45 for the copied value.
   const float sigma = source.diffuse_roughness;
-  const float darker = 1.0f - 0.5f * square(sigma) / (1.0f + 0.92f * square(sigma));
-  target.base_diffuse_roughness = 1.02f * sigma - 0.34f * square(sigma);
+  const float darker = 1.0f - 0.75f * square(sigma) / (1.0f + 1.7f * square(sigma));
+  target.base_diffuse_roughness = 0.93f * sigma - 0.34f * square(sigma);
   const float exponent = 1.0f + source.coat * source.coat_affect_color;
   const Color diffuse = power(most(0.0f, source.base_color), Color(exponent)) * kept * darker;
   // F82 of a metal is the reflectance of its artistic index of refraction at cosine 1/7. Error .03 to .05.
@@ -820,10 +820,10 @@ inline StandardSurface open_pbr_surface_to_standard_surface(const OpenPbrSurface
   target.coat_IOR = source.coat_ior;
   target.coat_affect_roughness = 0.0f;
   target.coat_affect_color = 0.0f;
-  // EON is brighter than the qualitative Oren-Nayar of the same sigma. Error .07 to .13, of .07 to .32 for the copied value.
+  // EON is brighter than the qualitative Oren-Nayar of the same sigma. Error .03 to .15, of .07 to .32 for the copied value.
   const float sigma = source.base_diffuse_roughness;
-  const float brighter = 1.0f + (1.0f - m) * least(0.41f, 0.65f * square(sigma));
-  target.diffuse_roughness = least(1.0f, sigma + 1.3f * square(most(0.0f, sigma - 0.4f)));
+  const float brighter = 1.0f + (1.0f - m) * least(0.52f, 0.98f * square(sigma));
+  target.diffuse_roughness = least(1.0f, 1.3f * sigma);
   target.base = source.base_weight;
   target.base_color = source.base_color * rest * q * brighter;
   // The edge of a metal: F82 gives the reflectance at cosine 1/7, the artistic edge a place between two curves. Error .03.

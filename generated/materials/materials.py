@@ -553,10 +553,10 @@ def standard_surface_to_open_pbr_surface(material):
         s = source.specular
         f = np.minimum(0.9, f0(n) + (1 - f0(n)) * 0.047619)
         kept = (1 - s * f) / (1 - f)
-        # Oren-Nayar to EON of less roughness and less colour. Error .06 to .10, of .07 to .45 for the copied value.
+        # Oren-Nayar to EON of less roughness and less colour. Error .02 to .06, of .07 to .45 for the copied value.
         sigma = source.diffuse_roughness
-        darker = 1 - 0.5 * np.square(sigma) / (1 + 0.92 * np.square(sigma))
-        target.base_diffuse_roughness = 1.02 * sigma - 0.34 * np.square(sigma)
+        darker = 1 - 0.75 * np.square(sigma) / (1 + 1.7 * np.square(sigma))
+        target.base_diffuse_roughness = 0.93 * sigma - 0.34 * np.square(sigma)
         exponent = 1 + source.coat * source.coat_affect_color
         diffuse = np.power(np.maximum(0, source.base_color), _color(exponent)) * kept * darker
         # F82 of a metal is the reflectance of its artistic index of refraction at cosine 1/7. Error .03 to .05.
@@ -627,10 +627,10 @@ def open_pbr_surface_to_standard_surface(material):
         target.coat_IOR = source.coat_ior
         target.coat_affect_roughness = 0
         target.coat_affect_color = 0
-        # EON is brighter than the qualitative Oren-Nayar of the same sigma. Error .07 to .13, of .07 to .32 for the copied value.
+        # EON is brighter than the qualitative Oren-Nayar of the same sigma. Error .03 to .15, of .07 to .32 for the copied value.
         sigma = source.base_diffuse_roughness
-        brighter = 1 + (1 - m) * np.minimum(0.41, 0.65 * np.square(sigma))
-        target.diffuse_roughness = np.minimum(1, sigma + 1.3 * np.square(np.maximum(0, sigma - 0.4)))
+        brighter = 1 + (1 - m) * np.minimum(0.52, 0.98 * np.square(sigma))
+        target.diffuse_roughness = np.minimum(1, 1.3 * sigma)
         target.base = source.base_weight
         target.base_color = _color(source.base_color * rest * q * brighter)
         # The edge of a metal: F82 gives the reflectance at cosine 1/7, the artistic edge a place between two curves. Error .03.
