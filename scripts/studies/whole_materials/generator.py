@@ -11,8 +11,8 @@ LEAST_ROUGHNESS = 0.2
 class Draw:
     """Random numbers of one material, in the units of materials."""
 
-    def __init__(self, seed, number):
-        self.random = np.random.default_rng([seed, number])
+    def __init__(self, *seeds):
+        self.random = np.random.default_rng(seeds)
 
     def between(self, low, high):
         return float(self.random.uniform(low, high))
@@ -81,7 +81,7 @@ def gltf_pbr(d):
     if coat:
         values.update(clearcoat=coat, clearcoat_roughness=d.roughness(0.6))
     if sheen:
-        values.update(sheen_color=tuple(sheen * np.array(d.color(0.3, 1))), sheen_roughness=d.between(0.3, 1))
+        values.update(sheen_color=tuple(sheen * channel for channel in d.color(0.3, 1)), sheen_roughness=d.between(0.3, 1))
     return values
 
 
@@ -115,4 +115,5 @@ GENERATORS = {"open_pbr_surface": open_pbr, "standard_surface": standard_surface
 
 def materials(model, seed, count):
     """Returns `count` random materials, each a dict of the inputs that are not at their defaults."""
-    return [GENERATORS[model](Draw(seed, number)) for number in range(count)]
+    place = list(GENERATORS).index(model)
+    return [GENERATORS[model](Draw(seed, place, number)) for number in range(count)]
