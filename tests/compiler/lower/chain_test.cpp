@@ -85,7 +85,7 @@ TEST_CASE("chain: what cannot be composed is refused with the place") {
   const Fit far = fit_of("x/b", "x/c", straight(1.0, 0.0, 1.0), {{0.8, 1.0}, {0.0, 1.0}});
   CHECK_THROWS_WITH(compose({a, far}), Catch::Contains("do not meet") && Catch::Contains("x_b_to_x_c") &&
                                            Catch::Contains("0.8 to 1"));
-  CHECK_THROWS_WITH(compose({a, b}, "not an id"), Catch::Contains("identifier"));
+  CHECK_THROWS_WITH(compose({a, b}, "not an id"), Catch::Contains("invalid id"));
 }
 
 TEST_CASE("chain: a chain of chains gives what all steps give") {

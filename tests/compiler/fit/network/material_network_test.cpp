@@ -94,5 +94,5 @@ TEST_CASE("material network: tables of other columns, or not of equation (2), ar
                     Contains("no row has status ok"));
   MaterialNetworkOptions options = quick_material_options();
   options.id = "a b";
-  CHECK_THROWS_WITH(fit_material_network(family_table(200, 0.04), "", options), Contains("identifier"));
+  CHECK_THROWS_WITH(fit_material_network(family_table(200, 0.04), "", options), Contains("is not valid"));
 }
