@@ -530,7 +530,7 @@ inline OpenPbrSurface UsdPreviewSurface_to_open_pbr_surface(const UsdPreviewSurf
   target.coat_darkening = 0.0f;
   target.specular_roughness = uncoated(rough, rc, w);
   // A reflectance of the specular workflow: its largest channel becomes the IOR, its hue the tint.
-  const float n = (is_specular == 1.0f ? ior_of(least(0.95f, top)) : most(source.ior, 1.0f / most(0.1f, source.ior)));
+  const float n = (is_specular == 1.0f ? ior_of(least(0.95f, mix(top, 0.04f, m))) : most(source.ior, 1.0f / most(0.1f, source.ior)));
   target.specular_ior = n / (w / new_coat_ior + 1.0f - w);
   const Color hue = (top > 0.0f ? source.specularColor / most(top, 1e-04f) : Color(1.0f));
   target.base_color = (is_specular == 1.0f ? mix(source.diffuseColor, source.specularColor, m) : source.diffuseColor);

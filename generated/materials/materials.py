@@ -331,7 +331,7 @@ def UsdPreviewSurface_to_open_pbr_surface(material):
         target.coat_darkening = 0
         target.specular_roughness = uncoated(rough, rc, w)
         # A reflectance of the specular workflow: its largest channel becomes the IOR, its hue the tint.
-        n = np.where(is_specular == 1, ior_of(np.minimum(0.95, top)), np.maximum(source.ior, 1 / np.maximum(0.1, source.ior)))
+        n = np.where(is_specular == 1, ior_of(np.minimum(0.95, _mix(top, 0.04, m))), np.maximum(source.ior, 1 / np.maximum(0.1, source.ior)))
         target.specular_ior = n / (w / new_coat_ior + 1 - w)
         hue = np.where(top > 0, source.specularColor / np.maximum(top, 1e-04), _color(1))
         target.base_color = _color(np.where(is_specular == 1, _mix(source.diffuseColor, source.specularColor, m), source.diffuseColor))

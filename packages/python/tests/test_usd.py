@@ -262,6 +262,22 @@ def test_tiles_are_converted_one_by_one(scene, tmp_path):
     assert image.GetInput("file").Get().path.endswith("World_Looks_coated_specular_roughness.<UDIM>.png")
 
 
+def test_packages_keep_their_textures(scene, tmp_path):
+    from pxr import UsdUtils
+
+    stage = Usd.Stage.CreateNew(str(tmp_path / "small.usda"))
+    add_material(stage, "plain", {}, [("diffuseColor", "diffuse.png", "rgb", "sRGB")])
+    add_material(stage, "coated", {"clearcoat": 1.0, "clearcoatRoughness": 0.2}, [("roughness", "specular.png", "g", "raw")])
+    stage.GetRootLayer().Save()
+    assert UsdUtils.CreateNewUsdzPackage(str(tmp_path / "small.usda"), str(tmp_path / "small.usdz"))
+    (tmp_path / "sub").mkdir()
+    reports = {report.path.rsplit("/", 1)[1]: report
+               for report in usd.convert(tmp_path / "small.usdz", tmp_path / "sub" / "out.usda", to="openpbr")}
+    assert reports["plain"].state == "converted" and "is in a USDZ package" in reports["coated"].reason
+    image = producer(paint_of(Usd.Stage.Open(str(tmp_path / "sub" / "out.usda")), "plain"), "base_color")
+    assert image.GetInput("file").Get().resolvedPath == str(tmp_path / "small.usdz[0/diffuse.png]")
+
+
 def test_numbers_that_are_not_finite_fail_their_material(scene, tmp_path):
     stage = Usd.Stage.Open(str(scene))
     add_material(stage, "odd", {"roughness": float("nan")})

@@ -13,6 +13,7 @@ from ._files import replacing
 _PNG_LEVEL = 6
 _BAND = 1 << 18  # texels that are converted at once
 _TILE = "<UDIM>"
+_PACKED = ".usdz["  # in the path of a texture inside of a package
 
 
 class Place(NamedTuple):
@@ -52,7 +53,7 @@ class Texture(NamedTuple):
 def tiles_of(path, name):
     """The words that stand for ``<UDIM>`` on this disk, or one empty word."""
     if _TILE not in path:
-        if not os.path.isfile(path):
+        if not os.path.isfile(path.split("[", 1)[0] if _PACKED in path else path):
             raise Error(f"{name}: {path}: file not found", "input")
         return ("",)
     start, end = path.split(_TILE, 1)
@@ -78,6 +79,8 @@ def read(texture, tile):
     from .images import MOST_TEXELS, Images
 
     path = texture.path.replace(_TILE, tile)
+    if _PACKED in path:
+        raise Error(f"{path}: is in a USDZ package, and must be converted (unpack it: usdunzip, or unzip)", "input")
     image = Images().open(path, 0)
     layout = image.layout()
     if layout["width"] * layout["height"] > MOST_TEXELS:

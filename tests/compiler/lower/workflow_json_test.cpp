@@ -50,6 +50,7 @@ TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
 }
 
 TEST_CASE("workflow fit: where width and specular are expected the error says what can be done") {
-  CHECK_THROWS_WITH(fit_from_json(fit_to_json(example(Equation2{})), "f.json"),
-                    Catch::StartsWith("f.json: converts whole materials") && Catch::Contains("remapc list, show and emit"));
+  CHECK_THROWS_WITH(
+      fit_from_json(fit_to_json(example(Equation2{})), "f.json"),
+      Catch::StartsWith("f.json: converts whole materials") && Catch::Contains("remapc list, show and emit"));
 }
