@@ -118,8 +118,7 @@ def _asset(node, name):
         raise Error(f"{name}: its texture {node.GetPath()} names no file", "input")
     path = asset.resolvedPath or asset.path
     if "<UDIM>" in asset.path and not asset.resolvedPath:
-        layer = attribute.GetPropertyStack()[0].layer
-        path = layer.ComputeAbsolutePath(asset.path)
+        path = os.path.join(os.path.dirname(attribute.GetPropertyStack()[0].layer.realPath), asset.path)
     return attribute, asset.path, path
 
 

@@ -381,6 +381,17 @@ def _plan(stage, to, folder):
             yield MaterialReport(path, "failed", str(failure))
 
 
+def _reason_of(source, text):
+    """A message with the place in the file, from USD's errors, each of which is `Error in FUNCTION at LINE in SOURCE : 'WHAT'`."""
+    if not os.path.exists(source):
+        return f"{source}: cannot be read: file not found"
+    first = re.search(r" : '([^\n]*)", text)
+    what = first[1].rstrip("'") if first else text.strip().split("\n")[0] or "unknown reason"
+    what = re.sub(r"\bpxrInternal_\w+::(\w+::)*", "", what)
+    at = re.match(re.escape(os.path.abspath(source)) + r"(:\d+:\d+): (.*)", what)
+    return f"{source}{at[1]}: cannot be read: {at[2]}" if at else f"{source}: cannot be read: {what}"
+
+
 def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathLike[str]"], *, to: str,
             force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
     """Converts the materials of ``source`` into a new layer ``output``, which sublayers ``source``.
