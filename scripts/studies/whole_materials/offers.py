@@ -119,6 +119,14 @@ def has(*names):
     return lambda values: any(values.get(name) for name in names)
 
 
+def without_coat(*names):
+    return lambda values: has(*names)(values) and not has("coat", "coat_weight")(values)
+
+
+def fuzz_on_dielectric(values):
+    return without_coat("sheen", "fuzz_weight")(values) and not has("metalness", "base_metalness")(values)
+
+
 def graph_changes(*names, words, concerns=lambda values: True):
     return [Change(f"{direction[0]} to {direction[1]}{words}", direction, in_use_of(direction), with_graph(direction, names), concerns)
             for direction in ((OPEN_PBR, STANDARD), (STANDARD, OPEN_PBR))]
@@ -188,13 +196,13 @@ def changes_of(page, translations):
         return lambda values: translations.version(direction, values)
 
     to_open_pbr, from_open_pbr, blender = (USD, OPEN_PBR), (OPEN_PBR, USD), (PRINCIPLED, OPEN_PBR)
+    today, undarkened, both = exported(), exported(no_darkening), exported(no_darkening, weight_of_dielectrics)
     return {
         "blender-materialx.md": lambda: [
-            Change("`coat_darkening` 0", blender, exported(), exported(no_darkening), has("coat_weight")),
-            Change("`specular_weight` 1 on metals", blender, exported(no_darkening), exported(no_darkening, weight_of_dielectrics),
-                   metal_of_another_level),
-            Change("both", blender, exported(), exported(no_darkening, weight_of_dielectrics)),
-            Change("the full translation", blender, exported(), ours(blender))],
+            Change("`coat_darkening` 0, with a coat", blender, today, undarkened, has("coat_weight")),
+            Change("then `specular_weight` 1 on metals of another level", blender, undarkened, both, metal_of_another_level),
+            Change("both, all materials", blender, today, both),
+            Change("the full translation, all materials", blender, today, ours(blender))],
         "simready-openpbr.md": lambda: [
             Change("coat: script of today", to_open_pbr, migrated, migrated_and_changed, coated),
             Change("coat: copied by names, without the lines", to_open_pbr, names_copied, migrated_and_changed, coated),
@@ -205,8 +213,9 @@ def changes_of(page, translations):
             *graph_changes("coat", words=", with a coat", concerns=has("coat", "coat_weight")),
             *graph_changes("coat", "anisotropy", "sheen", words=", all three changes")],
         "materialx-anisotropy.md": lambda: graph_changes(
-            "anisotropy", words=", stretched", concerns=has("specular_anisotropy", "specular_roughness_anisotropy")),
-        "materialx-sheen.md": lambda: graph_changes("sheen", words=", with fuzz or sheen", concerns=has("sheen", "fuzz_weight")),
+            "anisotropy", words=", stretched, no coat", concerns=without_coat("specular_anisotropy", "specular_roughness_anisotropy")),
+        "materialx-sheen.md": lambda: graph_changes("sheen", words=", with fuzz or sheen, no coat or metal",
+                                                   concerns=fuzz_on_dielectric),
         "materialx-usd.md": lambda: [
             Change(f"{one[0]} to {one[1]}", one, in_use_of(one), ours(one))
             for one in (to_open_pbr, from_open_pbr, (OPEN_PBR, USD + "_specular"))]}[page]()
@@ -219,7 +228,7 @@ class Measurement:
     """The errors of random materials, in which each picture is rendered once."""
 
     def __init__(self, seed, count):
-        self.seed, self.count, self.sources = seed, count, {}
+        self.seed, self.count, self.sources, self.found = seed, count, {}, {}
 
     def source(self, model, values):
         key = model, repr(values)
@@ -227,12 +236,18 @@ class Measurement:
             self.sources[key] = pictures.stage(model).under_both(pictures.shader_of(model), values)
         return self.sources[key]
 
+    def error(self, direction, version, values):
+        key = direction, version, repr(values)
+        if key not in self.found:
+            other = pictures.stage(direction[0]).under_both(*version(values))
+            self.found[key] = pictures.errors(self.source(direction[0], values), other)["linear"]
+        return self.found[key]
+
     def errors(self, change, version):
         """Returns the linear errors of the materials that a change concerns."""
-        model = change.direction[0]
-        chosen = change.materials or [one for one in generator.materials(model, self.seed, self.count) if change.concerns(one)]
-        stage = pictures.stage(model)
-        return np.array([pictures.errors(self.source(model, one), stage.under_both(*version(one)))["linear"] for one in chosen])
+        chosen = change.materials or [one for one in generator.materials(change.direction[0], self.seed, self.count)
+                                      if change.concerns(one)]
+        return np.array([self.error(change.direction, version, one) for one in chosen])
 
     def row(self, change):
         before, after = (self.errors(change, version) for version in (change.before, change.after))
