@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,6 +106,50 @@ class Translations(unittest.TestCase):
                           "TRANSLATIONS = {('gltf_pbr', 'open_pbr_surface'): nan}\n")
         self.refused("base_color = [nan, nan, nan]", "judge", "--translations", broken, "--json", "--materials", 1, "--documents", "none",
                      "--directions", "gltf_pbr:open_pbr_surface")
+
+    def test_files_of_pictures(self):
+        """A PNG file has the pixels that were written: its filters are taken off here. The pictures of the page are small."""
+        code = ("import sys; sys.path[:0] = ['compiler/adapters', 'scripts/studies']\n"
+                "import numpy\nfrom whole_materials import site\n"
+                "pixels = numpy.random.default_rng(1).integers(0, 256, (9, 7, 4)).astype(numpy.uint8)\n"
+                "pixels[3:, :, 1] = numpy.arange(7) * 9\npixels[5:] = pixels[4]\n"
+                "print(pixels.tobytes().hex(), site.png(pixels).hex())")
+        got = subprocess.run([PYTHON, "-c", code], capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(got.returncode, 0, got.stderr)
+        written, file = map(bytes.fromhex, got.stdout.split())
+        start = file.index(b"IDAT")
+        data = zlib.decompress(file[start + 4:start + 4 + int.from_bytes(file[start - 4:start], "big")])
+        above, kinds = bytes(28), set()
+        for row in range(9):
+            kind, *line = data[29 * row:29 * row + 29]
+            kinds.add(kind)
+            for i in range(28):
+                left, corner = (line[i - 4], above[i - 4]) if i >= 4 else (0, 0)
+                guess = left + above[i] - corner
+                paeth = min((left, above[i], corner), key=lambda one: abs(guess - one))
+                line[i] = (line[i] + {0: 0, 1: left, 2: above[i], 4: paeth}[kind]) % 256
+            self.assertEqual(bytes(line), written[28 * row:28 * row + 28])
+            above = line
+        self.assertGreater(len(kinds), 1)
+        page = (ROOT / "docs/materials.md").read_text()
+        pictures = list((ROOT / "docs/materials").glob("*.png"))
+        self.assertEqual(len(pictures), 6)
+        for picture in pictures:
+            self.assertIn(f"(materials/{picture.name})", page)
+            self.assertLess(picture.stat().st_size, 60_000, picture)
+
+    def test_changed_graphs(self):
+        """The lists of nodes on the pages make valid graphs, which the judge takes in place of the official ones."""
+        got = run("offers", "--graphs", self.folder / "changed")
+        self.assertEqual(got.returncode, 0, got.stderr)
+        files = sorted((self.folder / "changed").iterdir())
+        self.assertEqual(len(files), 6)
+        for file in files:
+            self.assertNotIn("include", file.read_text(), file)
+        got = run("judge", "--materials", 1, "--seed", SEED, "--documents", "none", "--json", "--directions",
+                  "open_pbr_surface:standard_surface", "--translations", files[1])
+        self.assertEqual(got.returncode, 0, got.stderr)
+        self.refused("is not a page of an offer", "offers", "paint.md")
 
     @unittest.skipUnless(CHROMIUM, "Chromium is not installed")
     def test_page(self):

@@ -31,25 +31,41 @@ def studio():
     return [lights[first:first + shaders.MOST_LIGHTS] for first in range(0, len(lights), shaders.MOST_LIGHTS)]
 
 
+def filtered(row, above, channels):
+    """Returns a row of a PNG file with the filter that leaves the smallest differences: none, left, above, or both by Paeth."""
+    left, corner = (np.concatenate([np.zeros(channels, int), one[:-channels]]) for one in (row, above))
+    guess = left + above - corner
+    near = np.abs(np.stack([guess - one for one in (left, above, corner)])).argmin(axis=0)
+    paeth = np.choose(near, (left, above, corner))
+    rows = [(number, (row - guess) % 256) for number, guess in ((0, 0), (1, left), (2, above), (4, paeth))]
+    number, best = min(rows, key=lambda one: np.minimum(one[1], 256 - one[1]).sum())
+    return bytes([number]) + best.astype(np.uint8).tobytes()
+
+
 def png(pixels):
-    """Returns the bytes of a PNG file of 8 bits with alpha."""
-    height, width, _ = pixels.shape
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    """Returns the bytes of a PNG file of 8 bits, with alpha if the pixels have four channels."""
+    height, width, channels = pixels.shape
+    lines = np.concatenate([np.zeros((1, width * channels), int), pixels.reshape(height, -1).astype(int)])
+    rows = b"".join(filtered(row, above, channels) for row, above in zip(lines[1:], lines))
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
 
 
-def portrait(stage, shader, values):
-    """Returns the bytes of a picture of a sphere in the studio, on a transparent ground."""
-    linear = sum(shader.render(values, stage.move(lights), SIDE * SAMPLES, stage.camera) for lights in studio())
-    covered = pictures.inside(SIDE * SAMPLES).astype(float)[..., None]
-    small = [part.reshape(SIDE, SAMPLES, SIDE, SAMPLES, -1).mean(axis=(1, 3)) for part in (linear, covered)]
-    shown = pictures.display(small[0] / np.maximum(small[1], 1e-6))
-    return png(np.round(255 * np.concatenate([shown, small[1]], axis=-1)).astype(np.uint8))
+def portrait(stage, shader, values, side=SIDE):
+    """Returns the pixels of a sphere in the studio, from 0 to 1: display values, and how much of each pixel the sphere covers."""
+    linear = sum(shader.render(values, stage.move(lights), side * SAMPLES, stage.camera) for lights in studio())
+    covered = pictures.inside(side * SAMPLES).astype(float)[..., None]
+    small = [part.reshape(side, SAMPLES, side, SAMPLES, -1).mean(axis=(1, 3)) for part in (linear, covered)]
+    return np.concatenate([pictures.display(small[0] / np.maximum(small[1], 1e-6)), small[1]], axis=-1)
+
+
+def portrait_file(stage, shader, values):
+    """Returns the bytes of a PNG file of a sphere on a transparent ground."""
+    return png(np.round(255 * portrait(stage, shader, values)).astype(np.uint8))
 
 
 def subjects(examples, seed):
@@ -70,10 +86,10 @@ def row_of(number, subject, translations, folder):
     reference = stage.under_both(source, values)
     row = {"kind": kind, "name": name, "from": NAMES[direction[0]], "to": NAMES[direction[1]], "in_use": in_use.name_of(direction),
            "values": described(values), "source": f"{number:03}-source.png"}
-    (folder / row["source"]).write_bytes(portrait(stage, source, values))
+    (folder / row["source"]).write_bytes(portrait_file(stage, source, values))
     for who, version in judge.versions(direction, values, translations).items():
         file = f"{number:03}-{who.replace(' ', '-')}.png"
-        (folder / file).write_bytes(portrait(stage, *version))
+        (folder / file).write_bytes(portrait_file(stage, *version))
         row[who] = {"file": file, **pictures.errors(reference, stage.under_both(*version))}
     return row
 
