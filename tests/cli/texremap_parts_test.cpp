@@ -159,7 +159,7 @@ TEST_CASE("texremap parts: a part of a manifest that has changed since is named"
   tree.map("in/zz/z_spec.png", kColor);
   index(tree);
   CHECK(part(tree, "2/2", "").exit_code == 0);
-  CHECK_THAT(merged(tree, 1)["problems"][0].get<std::string>(), Contains("part-0002-of-0002: manifest"));
+  CHECK_THAT(merged(tree, 1)["problems"][0].get<std::string>(), Contains("part-0002-of-0002: has manifest"));
   CHECK(part(tree, "1/2", "").exit_code == 0);
   CHECK(merged(tree, 0)["problems"].empty());
 }
