@@ -200,6 +200,7 @@ def changes_of(page, translations):
     return {
         "blender-materialx.md": lambda: [
             Change("`coat_darkening` 0, with a coat", blender, today, undarkened, has("coat_weight")),
+            Change("`coat_darkening` 0, all materials", blender, today, undarkened),
             Change("then `specular_weight` 1 on metals of another level", blender, undarkened, both, metal_of_another_level),
             Change("both, all materials", blender, today, both),
             Change("the full translation, all materials", blender, today, ours(blender))],
@@ -223,6 +224,11 @@ def changes_of(page, translations):
 
 MORE = {"materialx-anisotropy.md": 3, "materialx-sheen.md": 5}  # times as many materials, because these rows have few of them
 NAMES = ("blender-materialx.md", "simready-openpbr.md", *GRAPHS.values(), "materialx-usd.md")
+
+
+def drawn(page, count):
+    """Returns how many materials a page draws."""
+    return count * MORE.get(page, 1)
 
 
 class Measurement:
@@ -260,7 +266,7 @@ def rows_of(page, seed, count, translations):
     """Yields the lines of the table of a page."""
     yield "| change | materials | before | after |"
     yield "|---|---|---|---|"
-    measurement = Measurement(seed, count * MORE.get(page, 1))
+    measurement = Measurement(seed, drawn(page, count))
     for change in changes_of(page, translations):
         yield measurement.row(change)
 
