@@ -153,6 +153,11 @@ def weight_of_dielectrics(sockets):
     return {"specular_weight": (1 - sockets["metallic"]) * 2 * sockets["specular_ior_level"] + sockets["metallic"]}
 
 
+def ior_over_coat(sockets):
+    weight = sockets["coat_weight"]
+    return {"specular_ior": sockets["ior"] / (weight / sockets["coat_ior"] + 1 - weight)}
+
+
 def metal_of_another_level(values):
     return values["metallic"] > 0 and values["specular_ior_level"] != 0.5
 
@@ -197,12 +202,14 @@ def changes_of(page, translations):
 
     to_open_pbr, from_open_pbr, blender = (USD, OPEN_PBR), (OPEN_PBR, USD), (PRINCIPLED, OPEN_PBR)
     today, undarkened, both = exported(), exported(no_darkening), exported(no_darkening, weight_of_dielectrics)
+    all_three = exported(no_darkening, weight_of_dielectrics, ior_over_coat)
     return {
         "blender-materialx.md": lambda: [
             Change("`coat_darkening` 0, with a coat", blender, today, undarkened, has("coat_weight")),
             Change("`coat_darkening` 0, all materials", blender, today, undarkened),
             Change("then `specular_weight` 1 on metals of another level", blender, undarkened, both, metal_of_another_level),
-            Change("both, all materials", blender, today, both),
+            Change("then `specular_ior` over the coat, with a coat", blender, both, all_three, has("coat_weight")),
+            Change("all three, all materials", blender, today, all_three),
             Change("the full translation, all materials", blender, today, ours(blender))],
         "simready-openpbr.md": lambda: [
             Change("coat: script of today", to_open_pbr, migrated, migrated_and_changed, coated),
