@@ -613,7 +613,6 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface(const OpenPbrSurf
   const float coat_f0 = f0(source.coat_ior);
   const float f = least(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98f);
   const float base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy);
-  target.roughness = base_roughness;
   const float k = 1.0f - (1.0f - coat_f0) / square(source.coat_ior);
   const Color dielectric_albedo = mix(source.base_color, source.subsurface_color, source.subsurface_weight);
   const Color albedo = mix(dielectric_albedo, s * source.base_color, m);
@@ -630,8 +629,12 @@ inline UsdPreviewSurface open_pbr_surface_to_UsdPreviewSurface(const OpenPbrSurf
   const float coat_share = w * w / square(square(most(0.1f, source.coat_roughness)));
   const float mean_f = (base_f * base_share + lobe_f * coat_share) / most(1e-04f, base_share + coat_share);
   const float shown = most(1e-04f, (base_f > lobe_f ? base_f : mean_f));
-  target.ior = ior_of(shown);
-  target.clearcoat = least(1.0f, lobe_f / shown);
+  // A dielectric whose own highlight is weaker than half the coat's, as below most coats, shows the coat as its only highlight. With
+  // both, the base would have the coat's IOR, and a haze.
+  const float is_single = (m > 0.0f ? 0.0f : (lobe_f > 2.0f * base_f ? 1.0f : 0.0f));
+  target.roughness = (is_single == 1.0f ? source.coat_roughness * round_factor(source.coat_roughness_anisotropy) : base_roughness);
+  target.ior = ior_of((is_single == 1.0f ? least(0.9f, base_f + lobe_f) : shown));
+  target.clearcoat = (is_single == 1.0f ? 0.0f : least(1.0f, lobe_f / shown));
   target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy);
   target.emissiveColor = source.emission_color * source.emission_luminance * mix(1.0f, source.coat_color * (1.0f - coat_f0), w);
   target.opacity = source.geometry_opacity;

@@ -416,7 +416,6 @@ def open_pbr_surface_to_UsdPreviewSurface(material):
         coat_f0 = f0(source.coat_ior)
         f = np.minimum(s * f0(below_coat(source.specular_ior, source.coat_ior, w)), 0.98)
         base_roughness = below_rough_coat(source.specular_roughness, source.coat_roughness, w) * round_factor(source.specular_roughness_anisotropy)
-        target.roughness = base_roughness
         k = 1 - (1 - coat_f0) / np.square(source.coat_ior)
         dielectric_albedo = _mix(source.base_color, source.subsurface_color, source.subsurface_weight)
         albedo = _mix(dielectric_albedo, s * source.base_color, m)
@@ -433,8 +432,12 @@ def open_pbr_surface_to_UsdPreviewSurface(material):
         coat_share = w * w / np.square(np.square(np.maximum(0.1, source.coat_roughness)))
         mean_f = (base_f * base_share + lobe_f * coat_share) / np.maximum(1e-04, base_share + coat_share)
         shown = np.maximum(1e-04, np.where(base_f > lobe_f, base_f, mean_f))
-        target.ior = ior_of(shown)
-        target.clearcoat = np.minimum(1, lobe_f / shown)
+        # A dielectric whose own highlight is weaker than half the coat's, as below most coats, shows the coat as its only highlight. With
+        # both, the base would have the coat's IOR, and a haze.
+        is_single = np.where(m > 0, 0, np.where(lobe_f > 2 * base_f, 1, 0))
+        target.roughness = np.where(is_single == 1, source.coat_roughness * round_factor(source.coat_roughness_anisotropy), base_roughness)
+        target.ior = ior_of(np.where(is_single == 1, np.minimum(0.9, base_f + lobe_f), shown))
+        target.clearcoat = np.where(is_single == 1, 0, np.minimum(1, lobe_f / shown))
         target.clearcoatRoughness = source.coat_roughness * round_factor(source.coat_roughness_anisotropy)
         target.emissiveColor = _color(source.emission_color * source.emission_luminance * _mix(1, source.coat_color * (1 - coat_f0), w))
         target.opacity = source.geometry_opacity
