@@ -48,7 +48,8 @@ install(TARGETS remap remap_headers EXPORT remapTargets ARCHIVE DESTINATION ${CM
 install(EXPORT remapTargets NAMESPACE remap:: DESTINATION ${package_folder})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "LICENSE")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/languages DESTINATION ${data_folder})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/languages ${PROJECT_SOURCE_DIR}/generated/materialx DESTINATION ${data_folder})
+install(FILES ${PROJECT_SOURCE_DIR}/generated/materials/materials.py DESTINATION ${data_folder}/materials)
 install(FILES ${PROJECT_SOURCE_DIR}/generated/converters.json DESTINATION ${data_folder})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/include/remap ${PROJECT_BINARY_DIR}/runtime/include/remap
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
