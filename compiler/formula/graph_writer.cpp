@@ -105,7 +105,7 @@ GraphWriter::Term GraphWriter::call_of(const Expression& expression, const std::
           {{"in", terms[0]}, {"index", {ValueType::kInteger, std::string("value=\"") + index + "\""}}}, ""));
     return binary("max", binary("max", channels[0], channels[1], ""), channels[2], name);
   }
-  // A square root of a color is no node of MaterialX.
+  // MaterialX has no square root of a color.
   if (function == "sqrt" && terms[0].type == ValueType::kColor)
     return node("power", ValueType::kColor,
                 {{"in1", terms[0]}, {"in2", {ValueType::kNumber, "value=\"0.5\""}}}, name);

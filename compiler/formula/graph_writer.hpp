@@ -20,7 +20,7 @@ struct GraphFunction {
 };
 
 // Writes each operation once: equal operations on equal terms are one node. A statement whose name ends in
-// `_out` becomes an output of the graph. Nodes are those of MaterialX 1.38 and later.
+// `_out` becomes an output of the graph. The nodes exist in MaterialX 1.38 and later.
 class GraphWriter {
  public:
   // `inputs`: names and types of the inputs of the graph. A call of one of `functions` becomes a node of the
@@ -38,7 +38,7 @@ class GraphWriter {
   std::size_t count() const { return made_.size(); }
 
  private:
-  // Where the value of an input comes from: `nodename="..."`.
+  // A Term holds where the value of an input comes from: `nodename="..."`.
   struct Term {
     ValueType type;
     std::string attribute;

@@ -919,7 +919,7 @@ struct MapRow {
   std::size_t stride = 0;
 };
 
-// Where an input of the target is written; without data, nowhere.
+// Receives an input of the target. Without data, the input is not written.
 struct ResultRow {
   float* data = nullptr;
   std::size_t stride = 0;

@@ -197,24 +197,30 @@ class _Nodes:
         file = texture.file if not os.path.isabs(texture.path) else os.path.relpath(texture.path, self.layer).replace(os.sep, "/")
         return Sdf.AssetPath(file if file.startswith(("../", "/")) or ":" in file else "./" + file.removeprefix("./"))
 
-
-class PreviewNodes(_Nodes):
-    """Nodes of UsdPreviewSurface."""
-
     def place(self, place):
-        reader, is_new = self.node(("reader", place.primvar), "texremap_st", "UsdPrimvarReader_float2")
+        """The output of the nodes that give a texture its coordinates."""
+        name, kind, word = self._READER
+        reader, is_new = self.node(("reader", place.primvar), name, kind)
         if is_new:
-            reader.CreateInput("varname", _TYPES.String).Set(place.primvar)
-        output = reader.CreateOutput("result", _TYPES.Float2)
+            reader.CreateInput(word, _TYPES.String).Set(place.primvar)
+        output = reader.CreateOutput(self._RESULT, _TYPES.Float2)
         if place == Place(place.primvar):
             return output
-        transform, is_new = self.node(place, "texremap_transform", "UsdTransform2d")
+        transform, is_new = self.node(place, *self._TRANSFORM)
         if is_new:
             transform.CreateInput("in", _TYPES.Float2).ConnectToSource(output)
             transform.CreateInput("scale", _TYPES.Float2).Set(Gf.Vec2f(*place.scale))
             transform.CreateInput("rotation", _TYPES.Float).Set(place.rotation)
             transform.CreateInput("translation", _TYPES.Float2).Set(Gf.Vec2f(*place.translation))
-        return transform.CreateOutput("result", _TYPES.Float2)
+        return transform.CreateOutput(self._RESULT, _TYPES.Float2)
+
+
+class PreviewNodes(_Nodes):
+    """Nodes of UsdPreviewSurface."""
+
+    _READER = ("texremap_st", "UsdPrimvarReader_float2", "varname")
+    _TRANSFORM = ("texremap_transform", "UsdTransform2d")
+    _RESULT = "result"
 
     def texture(self, name, texture):
         node, _ = self.node(("texture", name), f"texremap_{name}", "UsdUVTexture")
@@ -242,20 +248,9 @@ class PreviewNodes(_Nodes):
 class MaterialXNodes(_Nodes):
     """Nodes of MaterialX 1.39."""
 
-    def place(self, place):
-        reader, is_new = self.node(("reader", place.primvar), "texremap_uv", "ND_geompropvalue_vector2")
-        if is_new:
-            reader.CreateInput("geomprop", _TYPES.String).Set(place.primvar)
-        output = reader.CreateOutput("out", _TYPES.Float2)
-        if place == Place(place.primvar):
-            return output
-        transform, is_new = self.node(place, "texremap_uv_transform", "ND_UsdTransform2d")
-        if is_new:
-            transform.CreateInput("in", _TYPES.Float2).ConnectToSource(output)
-            transform.CreateInput("scale", _TYPES.Float2).Set(Gf.Vec2f(*place.scale))
-            transform.CreateInput("rotation", _TYPES.Float).Set(place.rotation)
-            transform.CreateInput("translation", _TYPES.Float2).Set(Gf.Vec2f(*place.translation))
-        return transform.CreateOutput("out", _TYPES.Float2)
+    _READER = ("texremap_uv", "ND_geompropvalue_vector2", "geomprop")
+    _TRANSFORM = ("texremap_uv_transform", "ND_UsdTransform2d")
+    _RESULT = "out"
 
     def image(self, texture, kind, usd_type):
         key = (texture.file, texture.place, texture.wrap, texture.space, kind)

@@ -193,9 +193,9 @@ class _MaterialEdit:
 
         def translated(values):
             result = self._translate(values)
-            return {name: np.broadcast_to(np.asarray(result[name], float), (_PROBES, np.size(result[name]) // _PROBES or 1))
-                    if np.ndim(result[name]) > 1 else np.broadcast_to(np.atleast_1d(result[name]), (_PROBES, np.size(result[name])))
-                    for name in self._direction.makes}
+            rows = {name: np.atleast_2d(np.asarray(result[name], float)) for name in self._direction.makes}
+            return {name: np.broadcast_to(row, (_PROBES, row.shape[1])) for name, row in rows.items()}
+
         results = translated(given)
         moves = {name: [] for name in self._direction.makes}
         for texture in textures:
@@ -227,8 +227,7 @@ class _MaterialEdit:
         needed = sorted({source for sources in self._bakes.values() for source in sources})
         if not needed:
             return
-        places = {(textures[name].place, textures[name].wrap) for name in needed}
-        if len({place for place, _ in places}) > 1:
+        if len({textures[name].place for name in needed}) > 1:
             raise Error("its textures lie on different coordinates", "input")
         given = {name: textures[name] for name in needed}
         rest = {name: np.zeros(1 if np.ndim(materials.MODELS[self._direction.reads][name]) == 0 else 3)
@@ -251,11 +250,10 @@ class _MaterialEdit:
     def _fit_into_file(self, name):
         """Brings values into the range of a PNG. Returns the scale and the bias that bring them back."""
         tiles = self._baked[name]
-        low = min(0.0, min(float(values.min()) for values, _ in tiles.values()))
-        high = max(float(values.max()) for values, _ in tiles.values())
-        if low == 0 and high <= 1:
-            return 1.0, 0.0
         low = min(float(values.min()) for values, _ in tiles.values())
+        high = max(float(values.max()) for values, _ in tiles.values())
+        if low >= 0 and high <= 1:
+            return 1.0, 0.0
         self._baked[name] = {tile: ((values - low) / (high - low), deep) for tile, (values, deep) in tiles.items()}
         return high - low, low
 
