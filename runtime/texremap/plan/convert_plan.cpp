@@ -128,8 +128,9 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
   const RoughnessEncoding width = request.convention.value_or(info.source.roughness);
   for (const auto& [parameter, asked] : request.parameters) {
     const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessEncoding::kExponent;
+    const bool has_other_unit = is_input(parameter);  // an index of refraction, a length
     const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
-    if (!is_exponent && !is_wide)
+    if (!is_exponent && !is_wide && !has_other_unit)
       require(parameter == Parameter::kRoughness && width == RoughnessEncoding::kGlossiness
                   ? "--glossiness"
                   : parameter_option(parameter),
