@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "materials/materials.hpp"
+#include "generated/materials/materials.hpp"
 #include "remap/surface.hpp"
 
 namespace remap {

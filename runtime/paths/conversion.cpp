@@ -121,7 +121,7 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   if (!request.via.empty()) refuse("--via");
   name(*choice.source, *source);
   name(*choice.target, *target);
-  choice.translation = Translation{*source, *target};
+  choice.translation = SurfaceTranslation{*source, *target};
   choice.notes.clear();  // aliases mean surfaces here
   choice.changes_nothing = false;
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "materials/materials.hpp"
+#include "generated/materials/materials.hpp"
 #include "remap/surface.hpp"
 #include "stages/stage.hpp"
 
@@ -81,7 +81,7 @@ Values defaults_of(Surface surface) {
 
 class TranslationStage final : public Stage {
  public:
-  explicit TranslationStage(const Translation& translation)
+  explicit TranslationStage(const SurfaceTranslation& translation)
       : translation_(translation), defaults_(defaults_of(translation.source)) {}
 
   std::size_t run(Block& block, std::uint8_t*) const override {
@@ -118,7 +118,7 @@ class TranslationStage final : public Stage {
     std::size_t channel;  // among all channels of the model
   };
 
-  Translation translation_;
+  SurfaceTranslation translation_;
   Values defaults_;
 };
 
@@ -135,7 +135,7 @@ bool differ(const float* a, const float* b, std::size_t count) {
 // Returns the names of target inputs whose values differ between `results` and `others`, or within `results`.
 class Probing {
  public:
-  Probing(const Translation& translation, const GivenInputs& given) : translation_(translation) {
+  Probing(const SurfaceTranslation& translation, const GivenInputs& given) : translation_(translation) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform;
     materials_.fill(defaults_of(translation.source));
@@ -234,24 +234,25 @@ class Probing {
     return false;
   }
 
-  const Translation& translation_;
+  const SurfaceTranslation& translation_;
   std::vector<Given> given_;
   Probes materials_, results_;
 };
 
 }  // namespace
 
-void Translation::run(const float* source_values, float* target_values) const {
+void SurfaceTranslation::run(const float* source_values, float* target_values) const {
   link_of(target).from_hub(link_of(source).to_hub(source_values), target_values);
 }
 
-std::unique_ptr<Converter> make_translation_converter(const Translation& translation, ConverterInfo ends) {
+std::unique_ptr<Converter> make_translation_converter(const SurfaceTranslation& translation,
+                                                      ConverterInfo ends) {
   return std::make_unique<Converter>(std::move(ends), parameters_of(translation.source),
                                      parameters_of(translation.target),
                                      StageList{std::make_shared<TranslationStage>(translation)});
 }
 
-TranslationEffect effect_of(const Translation& translation, const GivenInputs& given) {
+TranslationEffect effect_of(const SurfaceTranslation& translation, const GivenInputs& given) {
   return Probing(translation, given).effect();
 }
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "materials/materials.hpp"
+#include "generated/materials/materials.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

@@ -58,7 +58,7 @@ struct ConversionChoice {
   bool is_closest = false;  // target_brdf is the closest model of the renderer that the user chose
   // Both or neither are set. Without them, the conversion covers only roughness and specular.
   std::optional<WorkflowEnd> source, target;
-  std::optional<Translation> translation;  // of whole surfaces, instead of a path between BRDFs
+  std::optional<SurfaceTranslation> translation;  // of whole surfaces, instead of a path between BRDFs
   double prior = kCleanPrior;
   bool changes_nothing = false;          // both ends are one material, so only files and encodings change
   std::vector<std::string> notes;        // explain the user's model names

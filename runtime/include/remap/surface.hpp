@@ -47,8 +47,8 @@ std::optional<Parameter> parameter_named(std::string_view name);
 // Returns every name that parameter_named() knows.
 std::vector<std::string> parameter_names();
 
-// A Translation converts whole materials by the closed forms of generated/materials/materials.hpp.
-struct Translation {
+// A SurfaceTranslation converts whole materials by the closed forms of generated/materials/materials.hpp.
+struct SurfaceTranslation {
   Surface source, target;
 
   // Translates one material. Both arrays have the channels of all inputs, in order.
@@ -56,7 +56,8 @@ struct Translation {
 };
 
 // Makes a converter between the parameters of both models. `ends` has the id, models and width encodings.
-std::unique_ptr<Converter> make_translation_converter(const Translation& translation, ConverterInfo ends);
+std::unique_ptr<Converter> make_translation_converter(const SurfaceTranslation& translation,
+                                                      ConverterInfo ends);
 
 // A SurfaceValue is an input that has one value for the whole material.
 struct SurfaceValue {
@@ -76,6 +77,6 @@ struct TranslationEffect {
 // Finds the effect by translating random texels. `given` has the constants of a source parameter, or nothing
 // if it is a map. The other inputs have their defaults.
 using GivenInputs = std::map<Parameter, std::optional<std::vector<float>>>;
-TranslationEffect effect_of(const Translation& translation, const GivenInputs& given);
+TranslationEffect effect_of(const SurfaceTranslation& translation, const GivenInputs& given);
 
 }  // namespace remap

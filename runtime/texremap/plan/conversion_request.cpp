@@ -124,7 +124,7 @@ std::string one_channel(const std::string& option, const std::filesystem::path& 
 namespace {
 
 // Returns the value that a surface has for an input without a map.
-ConstantValues default_of(const Translation& translation, Parameter parameter) {
+ConstantValues default_of(const SurfaceTranslation& translation, Parameter parameter) {
   const auto inputs = inputs_of(translation.source);
   const auto found = std::ranges::find(inputs, std::optional(parameter), &SurfaceInput::parameter);
   return {found->value.begin(), found->value.begin() + static_cast<std::ptrdiff_t>(found->channels)};

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "materials/materials.hpp"
+#include "generated/materials/materials.hpp"
 #include "remap/surface.hpp"
 
 using namespace remap;
@@ -60,7 +60,7 @@ void require_equal(Surface from, Surface to, Target (*function)(const Source&)) 
   for (int i = 0; i < 50; ++i) {
     const std::vector<float> source = random_material(from, random);
     std::vector<float> expected = flat(function(filled<Source>(source))), found(expected.size());
-    Translation{from, to}.run(source.data(), found.data());
+    SurfaceTranslation{from, to}.run(source.data(), found.data());
     REQUIRE(found == expected);
   }
 }
