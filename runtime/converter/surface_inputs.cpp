@@ -14,7 +14,7 @@ struct SameInput {
   std::string_view name, common;
   std::size_t channels = 0;  // if set, only of inputs with this many
 };
-constexpr std::array<SameInput, 37> kSame = {{{"specular_roughness", "roughness"},
+constexpr std::array<SameInput, 38> kSame = {{{"specular_roughness", "roughness"},
                                               {"base_metalness", "metallic"},
                                               {"metalness", "metallic"},
                                               {"diffuseColor", "base_color"},
@@ -50,6 +50,7 @@ constexpr std::array<SameInput, 37> kSame = {{{"specular_roughness", "roughness"
                                               {"emissive", "emission_color"},
                                               {"emissiveColor", "emission_color"},
                                               {"geometry_opacity", "opacity"},
+                                              {"opacity", "opacity_color", 3},
                                               {"alpha", "opacity"}}};
 
 // Switches have no maps. Occlusion is not a part of the surface, and stays a map beside it.

@@ -195,13 +195,22 @@ class Probing {
     });
   }
 
-  // Returns true if the weight of the input's lobe is 0 in every material.
-  bool is_hidden(const SurfaceInput& target) const {
-    if (!target.weight) return false;
-    const auto inputs = inputs_of(translation_.target);
+  bool is_zero(const SurfaceInput& target) const {
     std::size_t at = 0;
-    for (const SurfaceInput& input : inputs.first(*target.weight)) at += input.channels;
-    return is_all(at, inputs[*target.weight].channels, [](float value) { return std::abs(value) <= kSame; });
+    for (const SurfaceInput* input = inputs_of(translation_.target).data(); input != &target; ++input)
+      at += input->channels;
+    return is_all(at, target.channels, [](float value) { return std::abs(value) <= kSame; });
+  }
+
+  // Returns true if the weight of the input's lobe is 0 in every material, or if the input is such a weight
+  // and the color of the lobe is black unless it is set.
+  bool is_hidden(const SurfaceInput& target) const {
+    const auto inputs = inputs_of(translation_.target);
+    if (target.weight) return is_zero(inputs[*target.weight]);
+    const auto own = static_cast<std::size_t>(&target - inputs.data());
+    return is_zero(target) && std::ranges::any_of(inputs, [&](const SurfaceInput& input) {
+             return input.weight == own && input.value == std::array<float, 3>{} && input.channels == 3;
+           });
   }
 
   bool is_wide(const SurfaceInput& target, std::size_t at) const {
@@ -229,8 +238,12 @@ class Probing {
     const float* const own = materials_[0].data() + source.at;
     if (!source.is_map && !differ(own, source.input->value.data(), source.input->channels)) return true;
     const Probes changed = translated(others);
-    for (std::size_t i = 0; i < kProbes; ++i)
-      if (differ(results_[i].data(), changed[i].data(), kMostChannels)) return true;
+    std::size_t at = 0;
+    for (const SurfaceInput& input : inputs_of(translation_.target)) {
+      for (std::size_t i = 0; i < kProbes && !is_hidden(input); ++i)
+        if (differ(&results_[i][at], &changed[i][at], input.channels)) return true;
+      at += input.channels;
+    }
     return false;
   }
 

@@ -248,9 +248,16 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
+// Returns true if all files hold values above 1.
+bool holds_floats(const TargetChoice& choice) {
+  const bool is_float_type = choice.type == PixelType::kHalf || choice.type == PixelType::kFloat;
+  return choice.extension == "hdr" ||
+         (is_float_type && (choice.extension == "exr" || choice.extension.starts_with("tif")));
+}
+
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   const bool is_wide = std::ranges::find(choice.wide, parameter) != choice.wide.end();
-  if (is_wide && choice.extension.empty() && !choice.type) {
+  if (is_wide && !holds_floats(choice)) {
     TargetChoice floats = choice;
     floats.extension = "exr";
     floats.type = PixelType::kHalf;

@@ -28,7 +28,7 @@ void write_coated(const Session& session, const std::string& folder = "") {
 
 const Words kCoated = "--base-color b.exr --metallic m.exr --roughness r.exr --input coat_weight=coat.exr";
 
-nlohmann::json convert(const Session& session, Words words) {
+nlohmann::json translated(const Session& session, Words words) {
   return nlohmann::json::parse(
       require_success(session.texremap(Words("convert -o out --json") + words)).output);
 }
@@ -42,10 +42,11 @@ materials::Color color_at(const TestImage& image, int x, int y) {
 TEST_CASE("texremap translation: Blender to OpenPBR equals the header") {
   const Session session;
   write_coated(session);
-  const auto json = convert(session,
-                            "--from blender --to openpbr --input coat_roughness=0.25 --factor metallic=0.5 "
-                            "--input coat_tint=0.9,0.5,0.2" +
-                                kCoated);
+  const auto json =
+      translated(session,
+                 "--from blender --to openpbr --input coat_roughness=0.25 --factor metallic=0.5 "
+                 "--input coat_tint=0.9,0.5,0.2" +
+                     kCoated);
   const TestImage b = session.image("b.exr"), m = session.image("m.exr"), r = session.image("r.exr"),
                   coat = session.image("coat.exr"), base = session.image("out/b.exr"),
                   metalness = session.image("out/m.exr"), weight = session.image("out/coat.exr");
@@ -73,9 +74,9 @@ TEST_CASE("texremap translation: maps whose values stay are copied byte for byte
   const Session session;
   session.make("b.png", test_spec(kSide, kSide, {"R", "G", "B"}, OIIO::TypeUInt8), level);
   session.make("orm.png", test_spec(kSide, kSide, {"R", "G", "B"}, OIIO::TypeUInt8), level);
-  const auto json = convert(session,
-                            "--from blender --to openpbr --base-color b.png --metallic orm.png:B "
-                            "--roughness orm.png:G");
+  const auto json = translated(session,
+                               "--from blender --to openpbr --base-color b.png --metallic orm.png:B "
+                               "--roughness orm.png:G");
   CHECK(read_file(session.path("out/b.png")) == read_file(session.path("b.png")));
   CHECK(read_file(session.path("out/orm.png")) == read_file(session.path("orm.png")));
   CHECK(json["results"].size() == 2);
@@ -84,10 +85,12 @@ TEST_CASE("texremap translation: maps whose values stay are copied byte for byte
 TEST_CASE("texremap translation: OpenPBR to USD makes maps that the source lacks, and names what is lost") {
   const Session session;
   write_coated(session);
-  const auto json = convert(
-      session, "--from openpbr --to usd --input fuzz_weight=0.5 --input coat_color=0.5,1,1 " + kCoated);
+  const auto json = translated(session,
+                               "--from openpbr --to usd --format exr --type float --input fuzz_weight=0.5 "
+                               "--input coat_color=0.5,1,1 " +
+                                   kCoated);
   const TestImage b = session.image("b.exr"), m = session.image("m.exr"), r = session.image("r.exr"),
-                  coat = session.image("coat.exr"), roughness = session.image("out/r.exr"),
+                  coat = session.image("coat.exr"), roughness = session.image("out/roughness.exr"),
                   ior = session.image("out/ior.exr");
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
