@@ -38,7 +38,13 @@ NamedWord named_word(const std::string& option, const std::string& word) {
     throw usage_error(option + ": no value in '" + word + "' (write NAME=VALUE, such as coat_weight=0.5)");
   const std::string name = word.substr(0, sign);
   const auto parameter = parameter_named(name);
-  if (!parameter) fail_unknown(option, "input", name, parameter_names());
+  if (!parameter) {
+    const std::vector<std::string> near = nearest_names(name, parameter_names(), 1);
+    throw usage_error(option + ": unknown input '" + name + "' (" +
+                      (near.empty() ? "use the name of an input, such as coat_weight, sheen_color or ior"
+                                    : "did you mean " + near.front() + "?") +
+                      ")");
+  }
   return {*parameter, word.substr(sign + 1)};
 }
 
