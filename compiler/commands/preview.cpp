@@ -1,6 +1,4 @@
 // This file is `remapc preview`, which compares a source with its conversion, as pictures and figures.
-#include "report/preview.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <iomanip>
@@ -9,6 +7,7 @@
 
 #include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
+#include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/share_progress.hpp"
@@ -16,14 +15,19 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "renderer/image_file.hpp"
+#include "report/set_preview.hpp"
 #include "worker/renderer_options.hpp"
 
 namespace remap {
 namespace {
 
 struct PreviewCommand {
-  std::string fit;
+  std::string subject;  // a fit, or a folder of texture sets
+  ModelName from, to;
+  UsedConverters converters;
+  bool recursive = false;
   std::filesystem::path fit_folder, output;
   std::vector<std::string> lights;  // if empty, default_light()
   double distance = 3.0, exposure = 1.0;
@@ -95,10 +99,77 @@ PreviewOptions with_lights(const Command& given, const PreviewCommand& command, 
   return options;
 }
 
+Json figure_json(const SetFigure& figure) {
+  return {{"name", figure.name},
+          {"copied", figure.copied ? similarity_json(*figure.copied) : Json()},
+          {"converted", similarity_json(figure.converted)}};
+}
+
+void print(const SetFigure& figure) {
+  const auto text = [](const PreviewSimilarity& of) {
+    return "error " + fixed(100.0 * of.rms, 2) + " %, SSIM " + fixed(of.ssim, 4);
+  };
+  std::cout << figure.name << ": converted " << text(figure.converted)
+            << (figure.copied ? "; numbers copied " + text(*figure.copied) : "") << "\n";
+}
+
+// Resolves the conversion as `texremap convert` does, and writes nothing.
+ConvertPlan plan_of(const PreviewCommand& command) {
+  ConvertOptions options;
+  options.folder = command.subject;
+  options.from = command.from;
+  options.to = command.to;
+  options.converters = command.converters;
+  options.recursive = command.recursive;
+  options.output = std::filesystem::path(command.subject) / "preview";  // no file is written there
+  options.dry_run = options.force = true;
+  return resolve(std::move(options));
+}
+
+void run_sets(const Command& given, const PreviewCommand& command) {
+  for (const char* option : {"--fits", "--alpha", "--specular", "--shape", "--diffuse", "--distance",
+                             "--pixel-samples", "--worker"})
+    if (given.count(option) > 0)
+      throw usage_error(std::string(option) + ": applies to fits only (remove this option)");
+  if (command.lights.size() > 1) throw usage_error("--light: give one light for texture sets");
+  const std::string word = command.lights.empty() ? "studio" : command.lights.front();
+  const PreviewLight light = preview_light(word, command.distance, command.exposure);
+  if (!std::holds_alternative<Environment>(light.light))
+    throw usage_error("--light: texture sets need an environment (use sky, overcast, studio, or a file)");
+  SetPreviewOptions options;
+  options.light = std::get<Environment>(light.light);
+  options.source = command.from.word();
+  options.target = command.to.word();
+  if (given.count("--resolution") > 0) options.resolution = command.options.resolution;
+  if (given.count("--directions") > 0) options.directions = command.options.directions;
+  const ConvertPlan plan = plan_of(command);
+  const SetPreview preview = [&] {
+    ShareProgress progress("preview", command.subject);
+    options.progress = std::ref(progress);
+    return preview_sets(plan, options);
+  }();
+  for (const std::string& note : preview.notes) print_message("remapc", "note: " + note);
+  if (!command.output.empty())
+    write_png(command.output, command.bare ? preview.sheet : labelled(preview.sheet, preview.labels));
+  if (!command.json) {
+    for (const SetFigure& figure : preview.figures) print(figure);
+    return;
+  }
+  Json json = {
+      {"source", plan.conversion.source}, {"target", plan.conversion.target}, {"notes", preview.notes}};
+  json["figures"] = Json::list();
+  for (const SetFigure& figure : preview.figures) json["figures"].push_back(figure_json(figure));
+  if (!command.output.empty()) json["picture"] = command.output.string();
+  std::cout << json.dump(2) << "\n";
+}
+
 void run(const Command& given, const PreviewCommand& command) {
   watch_interruptions();
   require_new(command.output, command.force);
-  const Fit fit = find_fit(command.fit, command.fit_folder);
+  std::error_code ignored;
+  if (!command.to.empty() || std::filesystem::is_directory(command.subject, ignored))
+    return run_sets(given, command);
+  const Fit fit = find_fit(command.subject, command.fit_folder);
   PreviewOptions options = with_lights(given, command, fit);
   const Preview preview = [&] {
     ShareProgress progress("preview", fit.id);
@@ -117,12 +188,20 @@ void run(const Command& given, const PreviewCommand& command) {
 
 void add_preview_command(Command& app) {
   Command* command = app.add_subcommand(
-      "preview", "Render a source model and its conversion side by side, and print their similarity",
+      "preview", "Render a source and its conversion side by side, for a fit or your texture sets",
       kLookStage);
   PreviewCommand& options =
       set_work<PreviewCommand>(*command, [command](const PreviewCommand& given) { run(*command, given); });
-  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
+  command
+      ->add_option("subject", options.subject,
+                   "Fit: file, or id in the folder of fits; or a folder of texture sets")
+      ->required();
   command->option_group("Input");
+  command->add_option("--from MODEL", options.from, model_name(),
+                      "Model of the texture sets (default: detected from the maps)");
+  command->add_option("--to MODEL", options.to, model_name(), "Model that the texture sets become");
+  options.converters.add_option(*command);
+  command->add_flag("-r,--recursive", options.recursive, "Find texture sets in subfolders, too");
   add_fits_option(*command, options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_option(
@@ -168,6 +247,7 @@ void add_preview_command(Command& app) {
   add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
+      "  remapc preview textures --from blender --to unity -o sheet.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,sky -o preview.png");

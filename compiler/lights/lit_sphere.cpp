@@ -75,10 +75,9 @@ struct Mixture {
   }
 };
 
-Mixture mixture_for(std::span<const SphereMaterial> materials, int samples) {
+Mixture mixture_for(double least_alpha, double largest_alpha, int samples) {
   Mixture mixture;
-  const auto [low, high] = std::ranges::minmax_element(materials, {}, &SphereMaterial::alpha);
-  mixture.alphas = {low->alpha, high->alpha};
+  mixture.alphas = {least_alpha, largest_alpha};
   for (std::size_t t = 0; t < kTechniqueCount; ++t) {
     mixture.counts[t] =
         std::max(1u, static_cast<std::uint32_t>(std::lround(kTechniqueShare[t] * samples / kHalves)));
@@ -155,6 +154,37 @@ double reflected(const SphereMaterial& material, const LocalGeometry& geometry) 
   return (lobe.base + material.specular * lobe.slope + material.diffuse / pi) * geometry.cos_light;
 }
 
+void require(const SphereSampling& sampling) {
+  if (sampling.resolution < 4 || sampling.resolution > 1024)
+    throw Error(ErrorKind::kUsage,
+                "resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
+  if (sampling.samples < 16 || sampling.samples > 1 << 20)
+    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) +
+                                       " is out of range (16 to " + std::to_string(1 << 20) + ")");
+}
+
+// Returns the texel that the camera sees at a point of the ball, between the nearest four.
+BallTexel texel_at(const TexturedBall& ball, const SurfacePoint& point) {
+  const double u = 0.5 + std::atan2(point.x, point.z) / pi,
+               v = std::acos(std::clamp(point.y, -1.0, 1.0)) / pi;
+  const double x = std::clamp(u * ball.width - 0.5, 0.0, ball.width - 1.0),
+               y = std::clamp(v * ball.height - 0.5, 0.0, ball.height - 1.0);
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  BallTexel mean;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int column = left + corner % 2, row = top + corner / 2;
+    const double share = (1.0 - std::abs(x - column)) * (1.0 - std::abs(y - row));
+    if (share <= 0.0) continue;  // beyond the last column or row, where x or y is whole
+    const BallTexel& texel = ball.texels[static_cast<std::size_t>(row * ball.width + column)];
+    mean.alpha += share * texel.alpha;
+    for (std::size_t c = 0; c < 3; ++c) {
+      mean.specular[c] += share * texel.specular[c];
+      mean.diffuse[c] += share * texel.diffuse[c];
+    }
+  }
+  return mean;
+}
+
 void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
                SpherePictures* pictures) {
   for (std::size_t e = 0; 3 * e < rendering.environments.channel_count(); ++e)
@@ -227,16 +257,12 @@ std::vector<float> SpherePictures::radiance(std::size_t material, std::size_t en
 
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling) {
-  if (sampling.resolution < 4 || sampling.resolution > 1024)
-    throw Error(ErrorKind::kUsage,
-                "resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
-  if (sampling.samples < 16 || sampling.samples > 1 << 20)
-    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) +
-                                       " is out of range (16 to " + std::to_string(1 << 20) + ")");
+  require(sampling);
   if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
 
   SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
-  const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};
+  const auto [low, high] = std::ranges::minmax_element(materials, {}, &SphereMaterial::alpha);
+  const Rendering rendering{environments, materials, mixture_for(low->alpha, high->alpha, sampling.samples)};
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
   run_parallel(side, sampling.jobs, [&](std::size_t row) {
@@ -251,6 +277,76 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
       const auto place = static_cast<std::size_t>(pixel - pixels.begin());
       add_lamps(rendering, sampler, place, &pictures);
       add_samples(rendering, sampler, place, &pictures);
+    }
+    if (sampling.progress) sampling.progress();
+  });
+  return pictures;
+}
+
+namespace {
+
+// A BallPixel is one pixel with the materials of all balls there.
+struct BallPixel {
+  const PixelSampler& sampler;
+  std::span<const TexturedBall> balls;
+  std::vector<BallTexel> texels;
+  std::vector<Rgb> radiance;
+
+  // Adds light of this radiance from `solid_angle` steradians.
+  void add(const auto& light_radiance, double solid_angle, const LocalGeometry& geometry) {
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+      const BallTexel& texel = texels[b];
+      const Lobe lobe = evaluate_lobe(balls[b].model.brdf, balls[b].model.fresnel, texel.alpha, geometry);
+      for (std::size_t c = 0; c < 3; ++c)
+        radiance[b][c] += solid_angle * static_cast<double>(light_radiance[c]) * geometry.cos_light *
+                          (lobe.base + texel.specular[c] * lobe.slope + texel.diffuse[c] / pi);
+    }
+  }
+};
+
+void add_light(const RadiancePyramid& environment, const Mixture& mixture, BallPixel& pixel) {
+  LocalGeometry geometry;
+  for (const Lamp& lamp : environment.lamps(0))
+    if (is_lit(pixel.sampler.normal(), pixel.sampler.view(), lamp.direction, &geometry))
+      pixel.add(lamp.flux, 1.0, geometry);
+  std::array<float, 3> radiance{};
+  for (std::size_t half = 0; half < kHalves; ++half)
+    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
+      for (std::uint32_t i = 0; i < mixture.counts[technique]; ++i) {
+        const Direction light = pixel.sampler.direction(technique, half, i);
+        if (!is_lit(pixel.sampler.normal(), pixel.sampler.view(), light, &geometry)) continue;
+        const double solid_angle = 1.0 / (mixture.density(geometry) * kHalves);
+        environment.look_up(light, solid_angle, radiance.data());
+        pixel.add(radiance, solid_angle, geometry);
+      }
+}
+
+}  // namespace
+
+std::vector<std::vector<float>> render_textured(const RadiancePyramid& environment,
+                                                std::span<const TexturedBall> balls,
+                                                const SphereSampling& sampling) {
+  require(sampling);
+  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, sampling.resolution);
+  std::vector<std::vector<float>> pictures(balls.size(), std::vector<float>(3 * pixels.size()));
+  const auto side = static_cast<std::uint32_t>(sampling.resolution);
+  run_parallel(side, sampling.jobs, [&](std::size_t row) {
+    const auto begin = std::ranges::lower_bound(pixels, row * side),
+               end = std::ranges::lower_bound(pixels, (row + 1) * side);
+    for (auto place = begin; place != end; ++place) {
+      SurfacePoint point;
+      sphere_point(sampling.resolution, *place % side + 0.5, static_cast<double>(row) + 0.5, &point);
+      std::vector<BallTexel> texels;
+      for (const TexturedBall& ball : balls) texels.push_back(texel_at(ball, point));
+      const auto [low, high] = std::ranges::minmax_element(texels, {}, &BallTexel::alpha);
+      const Mixture mixture = mixture_for(low->alpha, high->alpha, sampling.samples);
+      const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *place);
+      BallPixel pixel{sampler, balls, texels, std::vector<Rgb>(balls.size())};
+      add_light(environment, mixture, pixel);
+      for (std::size_t b = 0; b < balls.size(); ++b)
+        for (std::size_t c = 0; c < 3; ++c)
+          pictures[b][3 * static_cast<std::size_t>(place - pixels.begin()) + c] =
+              static_cast<float>(pixel.radiance[b][c]);
     }
     if (sampling.progress) sampling.progress();
   });

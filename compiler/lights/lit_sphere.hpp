@@ -68,6 +68,27 @@ class SpherePictures {
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling);
 
+// A BallTexel is a texel of a material on a ball: the width, F0 or scale of the lobe, and the Lambertian
+// lobe.
+struct BallTexel {
+  double alpha = 0.0;
+  Rgb specular{}, diffuse{};
+};
+
+// A TexturedBall is a material of a built-in model whose parameters are maps, row by row from the top. The
+// maps cover the half of the ball that the camera sees.
+struct TexturedBall {
+  BrdfModel model;
+  int width = 0, height = 0;
+  std::vector<BallTexel> texels;
+};
+
+// Renders `balls` under one environment. Returns linear RGB of the pixels of shape_pixels(kSphere), for each
+// ball. All balls share their directions, as in render_spheres(). Throws like it.
+std::vector<std::vector<float>> render_textured(const RadiancePyramid& environment,
+                                                std::span<const TexturedBall> balls,
+                                                const SphereSampling& sampling);
+
 // Converts linear values to display values (renderer/image_similarity.hpp).
 std::vector<float> display_values(std::span<const float> radiance);
 

@@ -22,20 +22,3 @@ label_columns() {
   done
   oiiotool --nosoftwareattrib "${words[@]}" -d uint8 -o "$labelled"
 }
-
-# percent_off FILE N prints the Nth "rms" of a JSON report as a percentage.
-percent_off() { LC_ALL=C printf '%.0f %% off' "$(json_number "$1" rms "$2")e2"; }
-
-# lit_spheres OUTPUT SOURCE_LABEL TARGET_LABEL REMAPC FIT PREVIEW_OPTION... draws three spheres under an environment:
-# source, numbers copied and numbers converted. Each has its label and its difference from the source (RMS of display
-# values).
-lit_spheres() {
-  local -r result=$1 source_label=$2 target_label=$3 program=$4
-  shift 4
-  local folder
-  folder=$(mktemp --directory)
-  "$program" preview "$@" --no-labels --json --force -o "$folder/spheres.png" >"$folder/figures.json"
-  label_columns "$folder/spheres.png" "$result" "$source_label" "$target_label|numbers copied: $(percent_off "$folder/figures.json" 1)" \
-    "$target_label|numbers converted: $(percent_off "$folder/figures.json" 2)"
-  rm -r "$folder"
-}

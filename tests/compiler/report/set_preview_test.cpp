@@ -1,0 +1,106 @@
+// Previews of texture sets: balls of uniform maps equal the spheres of numbers, maps lie on the ball as they
+// are written, and the figures follow from the conversion.
+#include "report/set_preview.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "lights/lit_sphere.hpp"
+#include "renderer/scene.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_image.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr int kBall = 48;
+
+Environment studio() { return std::get<Environment>(preview_light("studio", 3.0, 1.0).light); }
+
+SphereSampling coarse() {
+  SphereSampling sampling;
+  sampling.resolution = kBall;
+  sampling.samples = 64;
+  return sampling;
+}
+
+// Writes a metallic set of tiles: one quarter of it is metal.
+void write_set(const TemporaryFolder& folder) {
+  std::filesystem::create_directories(folder.path() / "sets");
+  const auto write = [&](const std::string& name, const std::vector<std::string>& channels,
+                         const TexelFunction& f) {
+    write_image(folder.path() / "sets" / name, test_spec(64, 64, channels, OIIO::TypeUInt8), f);
+  };
+  write("tile_basecolor.png", {"R", "G", "B"}, [](int, int, int c) { return c == 0 ? 0.8f : 0.3f; });
+  write("tile_metallic.png", {"Y"}, [](int x, int y, int) { return x < 32 && y < 32 ? 1.0f : 0.0f; });
+  write("tile_roughness.png", {"Y"}, [](int x, int, int) { return 0.3f + 0.005f * static_cast<float>(x); });
+}
+
+SetPreview preview_of(const TemporaryFolder& folder, const std::string& from, const std::string& to) {
+  ConvertOptions options;
+  options.folder = folder.path() / "sets";
+  options.from = model_named(from);
+  options.to = model_named(to);
+  options.output = folder.path() / "out";
+  options.dry_run = true;
+  SetPreviewOptions shown;
+  shown.light = studio();
+  shown.resolution = kBall;
+  shown.directions = 64;
+  return preview_sets(resolve(options), shown);
+}
+
+}  // namespace
+
+TEST_CASE("set preview: a ball of uniform maps equals the sphere of the same numbers") {
+  const Environment light = studio();
+  const RadiancePyramid pyramid(std::span(&light, 1), 64);
+  const BrdfModel model = builtin_brdf(GENERATE("mitsuba/ggx", "mitsuba/ward", "mitsuba/as"));
+  const std::array<SphereMaterial, 1> material = {{{model, 0.2, 0.6, 0.3}}};
+  const std::vector<float> expected = render_spheres(pyramid, material, coarse()).radiance(0, 0);
+  const TexturedBall ball{model, 3, 2, std::vector<BallTexel>(6, {0.2, {0.6, 0.6, 0.6}, {0.3, 0.3, 0.3}})};
+  const std::vector<float> found = render_textured(pyramid, std::span(&ball, 1), coarse()).front();
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) REQUIRE(found[i] == Approx(expected[i]).epsilon(1e-4));
+}
+
+TEST_CASE("set preview: the left of a map is at the left of the ball, its first row at the top") {
+  const Environment light = exposed(builtin_environments(16)[1], 1.0);  // overcast
+  const RadiancePyramid pyramid(std::span(&light, 1), 64);
+  TexturedBall ball{builtin_brdf("mitsuba/ggx"), 2, 2, std::vector<BallTexel>(4, {0.5, {}, {}})};
+  ball.texels[0].diffuse = {1.0, 0.0, 0.0};
+  ball.texels[3].diffuse = {0.0, 1.0, 0.0};
+  const std::vector<float> picture = render_textured(pyramid, std::span(&ball, 1), coarse()).front();
+  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, kBall);
+  const auto at = [&](int x, int y, std::size_t channel) {
+    const auto place = std::ranges::find(pixels, static_cast<std::uint32_t>(y * kBall + x));
+    REQUIRE(place != pixels.end());
+    return picture[3 * static_cast<std::size_t>(place - pixels.begin()) + channel];
+  };
+  CHECK(at(12, 14, 0) > 2.0f * at(12, 14, 1));
+  CHECK(at(35, 33, 1) > 2.0f * at(35, 33, 0));
+}
+
+TEST_CASE("set preview: a set that does not change looks the same, and Blender's set in three.js nearly so",
+          "[needs]") {
+  const TemporaryFolder folder;
+  write_set(folder);
+  const SetPreview same = preview_of(folder, "gltf", "gltf");
+  REQUIRE(same.figures.size() == 1);
+  CHECK(same.figures[0].name == "tile");
+  CHECK(same.figures[0].converted.rms < 1e-6);
+  CHECK(same.notes.empty());
+
+  const SetPreview other = preview_of(folder, "blender", "threejs");
+  REQUIRE(other.figures[0].copied);
+  CHECK(other.figures[0].converted.rms < 0.5 * other.figures[0].copied->rms);
+  CHECK(other.labels.columns.size() == 3);
+  REQUIRE(other.notes.size() == 2);
+  CHECK_THAT(other.notes[0], Contains("is shown as mitsuba/ggx"));
+
+  const SetPreview across = preview_of(folder, "gltf", "gltf-specgloss");
+  CHECK_FALSE(across.figures[0].copied);
+  CHECK(across.labels.columns.size() == 2);
+  CHECK(across.figures[0].converted.rms < 0.02);
+}
