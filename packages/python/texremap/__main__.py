@@ -5,7 +5,7 @@ import sys
 import textwrap
 
 from . import _core
-from ._usd_options import SUMMARY, usd_parser
+from ._options import USD_SUMMARY, usd_parser
 
 _HELP = ("-h", "--help")
 
@@ -28,7 +28,7 @@ def main():
         return _run_usd(words[1:])
     status = _core.run(words, True)
     if words[:1] and words[0] in _HELP:
-        lines = textwrap.wrap(SUMMARY, 54)
+        lines = textwrap.wrap(USD_SUMMARY, 54)
         print("\nOnly in the Python package:\n  usd".ljust(55) + ("\n" + " " * 26).join(lines))
     return status
 

@@ -2,18 +2,18 @@
 
 import argparse
 
-SUMMARY = "Convert the materials of a USD file between UsdPreviewSurface and OpenPBR, or between workflows"
-TARGETS = ("openpbr", "preview", "metallic", "specular")
+USD_SUMMARY = "Convert the materials of a USD file between UsdPreviewSurface and OpenPBR, or between workflows"
+USD_TARGETS = ("openpbr", "preview", "metallic", "specular")
 USAGE = "texremap usd IN -o OUT [options]"
 EXAMPLE = "  texremap usd scene.usda --to openpbr -o scene_openpbr.usda"
 
 
 def usd_parser():
     parser = argparse.ArgumentParser(
-        prog="texremap usd", usage=USAGE, description=f"{SUMMARY},\ninto a new layer over it.",
+        prog="texremap usd", usage=USAGE, description=f"{USD_SUMMARY},\ninto a new layer over it.",
         epilog="Example:\n" + EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter, add_help=False)
     parser.add_argument("source", metavar="IN", help="A .usda, .usdc, .usd or .usdz file")
-    parser.add_argument("--to", choices=TARGETS, required=True,
+    parser.add_argument("--to", choices=USD_TARGETS, required=True,
                         help="openpbr adds an OpenPBR surface to each UsdPreviewSurface, preview the other way round; metallic "
                              "and specular change the workflow of each UsdPreviewSurface")
     parser.add_argument("-o", "--output", required=True, metavar="OUT", help="The new layer: .usda, .usdc or .usd")
