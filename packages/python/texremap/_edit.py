@@ -10,16 +10,16 @@ import numpy as np
 
 from . import materials
 from ._error import Error
-from ._textures import TILE, Texture, baked, png_of, tiles_of, write_file
+from ._textures import TILE, Texture, baked, png_of, read, tiles_of, write_file
 
 _PROBES = 16
 _SAME = 1e-5  # values that no picture tells apart
 # A lobe whose weight is 0 shows nothing of its other inputs.
 _WEIGHTS = {
     "open_pbr_surface": {"fuzz_": "fuzz_weight", "transmission_": "transmission_weight", "subsurface_": "subsurface_weight",
-                         "thin_film_": "thin_film_weight", "coat_": "coat_weight"},
+                         "thin_film_": "thin_film_weight", "coat_": "coat_weight", "emission_": "emission_luminance"},
     "standard_surface": {"sheen_": "sheen", "transmission_": "transmission", "subsurface_": "subsurface", "coat_": "coat",
-                         "specular_rotation": "specular_anisotropy"},
+                         "specular_rotation": "specular_anisotropy", "thin_film_": "thin_film_thickness", "emission_": "emission"},
     "gltf_pbr": {"sheen_": "sheen_color", "clearcoat_": "clearcoat", "iridescence_": "iridescence", "dispersion": "transmission",
                  "attenuation_": "transmission", "thickness": "transmission", "anisotropy_": "anisotropy_strength",
                  "alpha_cutoff": "alpha_mode"},
@@ -27,18 +27,21 @@ _WEIGHTS = {
 }
 
 
+def _weight_of(model, name):
+    return next((weight for prefix, weight in _WEIGHTS[model].items() if name.startswith(prefix) and name != weight), None)
+
+
 def losses(model, ignored, sources):
     """Inputs in ``ignored`` that change the look of a material. ``sources`` has a value or a texture for each input."""
     defaults, lost = materials.MODELS[model], []
     for name in ignored:
-        weight = next((word for prefix, word in _WEIGHTS[model].items() if name.startswith(prefix)), name)
-        source, lobe = sources.get(name, defaults[name]), sources.get(weight, defaults[weight])
+        weight, source = _weight_of(model, name), sources.get(name, defaults[name])
         if isinstance(source, Texture):
             lost.append(name)
             continue
         is_plain = np.allclose(source, np.ravel(defaults[name]))
-        is_hidden = weight != name and not isinstance(lobe, Texture) and not np.any(lobe)
-        if not is_plain and not is_hidden:
+        lobe = sources.get(weight, defaults[weight]) if weight else 1
+        if not is_plain and (isinstance(lobe, Texture) or np.any(lobe)):
             lost.append(name)
     return lost
 
@@ -57,8 +60,11 @@ class Edit:
     the others: ``{input: {tile: (array, is_deep)}}``.
     """
 
-    def __init__(self, model, sources, makes, translate):
-        """``sources`` has a tuple of numbers or a :class:`Texture` for inputs of ``model``, ``makes`` the inputs of the result."""
+    def __init__(self, model, sources, makes, translate, target=None):
+        """``sources`` has a tuple of numbers or a :class:`Texture` for inputs of ``model``, ``makes`` the inputs of the result.
+
+        With the model ``target`` of the result, lobes that do not show have the defaults of the model.
+        """
         self._defaults, self._makes, self._translate = materials.MODELS[model], makes, translate
         self.values, self.textures, self.baked = {}, {}, {}
         self._bakes, self._constants, self._given = {}, {}, {}
@@ -72,8 +78,10 @@ class Edit:
                 raise Error(f"{name} is not a finite number", "input")
         results, moves = self._probe()
         for name in makes:
-            found = moves[name]
-            if not found:
+            found, weight = moves[name], _weight_of(target, name) if target else None
+            if weight and not moves[weight] and not results[weight][0].any():
+                self.values[name] = np.ravel(np.array(materials.MODELS[target][name], float))
+            elif not found:
                 self.values[name] = results[name][0]
             elif len(found) == 1 and self._connect(name, found[0], results):
                 tiles_of(self._given[found[0]].path, found[0])
@@ -139,6 +147,19 @@ class Edit:
             if all((tile == first).all() for tile in values):
                 self.values[name] = first
                 del self.baked[name]
+
+    def settle(self, name, largest=False):
+        """Makes a value of an input that has no texture in the target: the mean, or the largest. Returns whether it varied."""
+        if name in self.values:
+            return False
+        if name in self.baked:
+            texels = [values for values, _ in self.baked.pop(name).values()]
+        else:
+            texture = self.textures.pop(name)
+            texels = [read(texture, tile)[0] for tile in tiles_of(texture.path, name)]
+        rows = np.concatenate([values.reshape(-1, values.shape[-1]) for values in texels])
+        self.values[name] = rows.max(axis=0) if largest else rows.mean(axis=0)
+        return True
 
     def wrap_and_place(self):
         """How the converted textures lie on the surface."""

@@ -4,10 +4,8 @@ Needs usd-core (the extra ``usd``); materials with textures also need OpenImageI
 sublayers the old one, which stays as it is: ``texremap usd scene.usda --to openpbr -o scene_openpbr.usda``.
 """
 
-import json
 import os
 import re
-import sys
 from typing import List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -18,6 +16,7 @@ from ._error import Error
 from ._files import replacing
 from ._networks import Procedural
 from ._options import USD_TARGETS as TARGETS, usd_parser
+from ._surface import MaterialReport, require_output, run
 from ._textures import Texture, tiles_of
 
 try:
@@ -33,19 +32,6 @@ _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit",
 _PREVIEW, _OPEN_PBR = "UsdPreviewSurface", "open_pbr_surface"
 _INTEGERS = {"useSpecularWorkflow", "opacityMode"}
 _ROUGHNESS = 0.5  # any: both ends of a workflow share a BRDF, so that roughness stays
-
-
-class MaterialReport(NamedTuple):
-    """What became of a material."""
-
-    path: str
-    state: str
-    """``"converted"``, ``"left"`` (there is nothing to convert) or ``"failed"``."""
-    reason: str = ""
-    textures: Tuple[str, ...] = ()
-    """The files that were written for it."""
-    lost: Tuple[str, ...] = ()
-    """Inputs that the result does not show, each with a reason behind a colon, or without one where the target lacks the input."""
 
 
 class _Direction(NamedTuple):
@@ -279,12 +265,7 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
     source, output = os.fspath(source), os.fspath(output)
     if to not in TARGETS:
         raise Error(f"to: unknown target '{to}' (choose {', '.join(TARGETS[:-1])} or {TARGETS[-1]})")
-    if os.path.splitext(output)[1] not in (".usda", ".usdc", ".usd"):
-        raise Error(f"{output}: a layer is .usda, .usdc or .usd", "output")
-    if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):
-        raise Error(f"{output}: is the input (choose another name)", "output")
-    if os.path.exists(output) and not force:
-        raise Error(f"{output}: exists (use --force to replace it)", "output")
+    require_output(source, output, (".usda", ".usdc", ".usd"), force)
     try:
         stage = Usd.Stage.Open(source)
     except Exception as failure:  # Tf.ErrorException
@@ -327,26 +308,7 @@ def _write_layer(root, edits, output, folder):
         raise Error(f"{output}: cannot be written: {failure.strerror}", "output") from None
 
 
-def _line_of(report):
-    if report.state != "converted":
-        return f"{report.state}: {report.reason}"
-    lost = f"; not converted: {', '.join(report.lost)}" if report.lost else ""
-    return "converted" + "".join(f", {file}" for file in report.textures) + lost
-
-
 def main(words: Optional[List[str]] = None) -> int:
     options = usd_parser().parse_args(words)
-    try:
-        reports = convert(options.source, options.output, to=options.to, force=options.force, dry_run=options.dry_run)
-    except Error as failure:
-        print(f"texremap: {failure}", file=sys.stderr)
-        return 2 if failure.kind == "usage" else 1
-    for report in reports:
-        if options.json:
-            print(json.dumps(report._asdict()))
-        else:
-            print(f"texremap: {report.path}: {_line_of(report)}", file=sys.stderr)
-    counts = [sum(report.state == state for report in reports) for state in ("converted", "left", "failed")]
-    if not options.json:
-        print("texremap: {}: {} converted, {} left, {} failed".format(options.output, *counts), file=sys.stderr)
-    return 1 if counts[2] else 0
+    return run(lambda: convert(options.source, options.output, to=options.to, force=options.force, dry_run=options.dry_run),
+               options.output, options.json)
