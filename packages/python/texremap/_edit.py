@@ -22,7 +22,7 @@ _WEIGHTS = {
                          "specular_rotation": "specular_anisotropy", "thin_film_": "thin_film_thickness", "emission_": "emission"},
     "gltf_pbr": {"sheen_": "sheen_color", "clearcoat_": "clearcoat", "iridescence_": "iridescence", "dispersion": "transmission",
                  "attenuation_": "transmission", "thickness": "transmission", "anisotropy_": "anisotropy_strength",
-                 "alpha_cutoff": "alpha_mode"},
+                 "alpha_cutoff": "alpha_mode", "emissive": "emissive_strength"},
     "UsdPreviewSurface": {},
 }
 
