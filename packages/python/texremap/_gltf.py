@@ -179,12 +179,15 @@ class GltfReader:
         name = self.materials[index].get("name")
         return name if isinstance(name, str) and name else f"materials[{index}]"
 
-    def reason_to_leave(self, index):
+    def reason_to_leave(self, index, read=None):
+        """Why a material is not converted, or an empty word. ``read`` has the extensions that the importer of the result reads."""
         extensions = _object(self.materials[index], "extensions", "material")
         if "KHR_materials_unlit" in extensions:
             return "it is unlit"
         if "KHR_materials_pbrSpecularGlossiness" in extensions:
             return "it is in the spec-gloss workflow (first: texremap convert --to gltf)"
+        if read is not None and not EXTENSIONS.intersection(extensions).difference(read):
+            return "the importer reads all of it"
         return ""
 
     def surface(self, index):
@@ -371,7 +374,8 @@ class GltfWriter:
         self._stem = os.path.splitext(os.path.basename(output))[0]
         self._pieces, self._length, self._files = [], 0, {}
         self._made = {}
-        self.json = {"asset": {"version": "2.0"}}
+        # A library of materials needs no scene, but programs that show the scene of a file do.
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]}
         if base:
             self.json = json.loads(json.dumps(base.json))
             self._copy_buffers(base)

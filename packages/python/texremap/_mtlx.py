@@ -133,7 +133,7 @@ class MtlxReader:
     def name_of(self, index):
         return self.materials[index].getName()
 
-    def reason_to_leave(self, index):
+    def reason_to_leave(self, index, read=None):
         return ""
 
     def surface(self, index):
@@ -173,7 +173,7 @@ class MtlxReader:
                 node, output = end
                 return texture_of(node, "rgb" if node.kind == "UsdUVTexture" and output == "out" else output, name)
         except Procedural as failure:
-            lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+            lost.append(failure.words_about(name))
             return default
         value = _numbers_of(end, name) if default is not None else None
         return default if value is None else value

@@ -21,6 +21,10 @@ class Procedural(Error):
     def __init__(self, message):
         super().__init__(message, "input")
 
+    def words_about(self, name):
+        """The message with the input in front, once."""
+        return f"{name}: {str(self).removeprefix(name).lstrip(': ')}"
+
 
 class Node:
     """A node of a document. ``kind`` is its category (``"image"``), ``type`` the type in its name, ``name`` a word for messages."""

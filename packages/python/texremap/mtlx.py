@@ -71,10 +71,10 @@ def _writer_of(output, reader, model, importer):
 def _converted(reader, writer, index, model, importer):
     """The report about a material, which the writer has if it is converted."""
     name = reader.name_of(index)
-    reason = reader.reason_to_leave(index)
-    if reason:
-        return MaterialReport(name, "left", reason)
     try:
+        reason = reader.reason_to_leave(index, _ALLOWED.get(importer))
+        if reason:
+            return MaterialReport(name, "left", reason)
         surface = reader.surface(index)
         route = _Route(surface.model, model, importer)
         lost = [*surface.lost, *route.losses(surface.sources)]

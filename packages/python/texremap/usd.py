@@ -109,7 +109,7 @@ class _MaterialEdit:
             except Procedural as failure:
                 if self._direction.reads == self._direction.writes:
                     raise
-                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+                self.lost.append(failure.words_about(name))
                 sources[name] = default
             if isinstance(sources[name], Texture) and name == "ior":
                 raise Error("ior has a texture", "input")
@@ -122,7 +122,7 @@ class _MaterialEdit:
             try:
                 source = source_of(self._shader, name, None)
             except Procedural as failure:
-                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+                self.lost.append(failure.words_about(name))
                 continue
             if isinstance(source, Texture):
                 tiles_of(source.path, name)
