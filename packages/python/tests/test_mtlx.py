@@ -292,6 +292,30 @@ def test_nodes_of_gltf_images_have_the_same_transforms(tmp_path, maps):
     assert math.isclose(transform["rotation"], math.radians(40), rel_tol=1e-6) and pbr["baseColorFactor"] == [0.5, 0.5, 1, 0.25]
 
 
+def test_place2d_is_that_of_material_x(tmp_path, maps):
+    """NG_place2d_vector2: subtract the pivot, divide by the scale, rotate clockwise, subtract the offset, add the pivot."""
+    body = """<texcoord name="t" type="vector2"/><place2d name="p" type="vector2"><input name="texcoord" type="vector2" nodename="t"/>
+<input name="pivot" type="vector2" value="0.5, 0.25"/><input name="scale" type="vector2" value="0.5, 2"/>
+<input name="rotate" type="float" value="30"/><input name="offset" type="vector2" value="0.1, -0.3"/></place2d>
+<image name="i" type="color3"><input name="file" type="filename" value="color.png"/><input name="texcoord" type="vector2" nodename="p"/></image>
+<open_pbr_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></open_pbr_surface>"""
+    place = MtlxReader(str(document(tmp_path / "in.mtlx", body=body)), str(tmp_path)).surface(0).sources["base_color"].place
+    pivot, c, s = np.array((0.5, 0.25)), math.cos(math.radians(30)), math.sin(math.radians(30))
+    c2, s2 = math.cos(math.radians(place.rotation)), math.sin(math.radians(place.rotation))
+    for uv in np.random.default_rng(1).random((5, 2)):
+        expected = np.array([[c, s], [-s, c]]) @ ((uv - pivot) / (0.5, 2)) - (0.1, -0.3) + pivot
+        found = np.array([[c2, -s2], [s2, c2]]) @ (uv * place.scale) + place.translation
+        assert np.allclose(found, expected, atol=1e-6)
+
+
+def test_looks_are_kept(tmp_path):
+    look = '<look name="all"><materialassign name="a" geom="/cup" material="paint"/></look>'
+    source = document(tmp_path / "in.mtlx", ("paint", "open_pbr_surface", {}), body=look)
+    mtlx.convert(source, tmp_path / "out.mtlx", to="standard-surface")
+    [assign] = MtlxReader(str(tmp_path / "out.mtlx"), str(tmp_path)).document.getLook("all").getMaterialAssigns()
+    assert (assign.getMaterial(), assign.getGeom()) == ("paint", "/cup")
+
+
 def test_images_of_glb_files_become_files(tmp_path, maps):
     source = document(tmp_path / "in.mtlx", ("paint", "open_pbr_surface", {"base_color": "color", "coat_weight": "grey"}), body=GRAPH)
     mtlx.convert(source, tmp_path / "there.glb", to="gltf")
@@ -357,14 +381,35 @@ def test_what_an_importer_ignores_is_folded(tmp_path, importer, ending):
     assert math.isclose(pbr["roughnessFactor"], expected["roughness"], rel_tol=1e-6)
 
 
+def test_files_that_the_source_reads_are_not_replaced(tmp_path):
+    content, data = triangle({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}}, extensionsUsed=["KHR_materials_clearcoat"])
+    (tmp_path / "in.gltf").write_text(json.dumps(content))
+    (tmp_path / "mesh.bin").write_bytes(data)
+    (tmp_path / "other.bin").write_bytes(b"mine")
+    for name, force, message in (("mesh", True, "is read by"), ("other", False, "exists")):
+        with pytest.raises(Error, match=message):
+            mtlx.convert(tmp_path / "in.gltf", tmp_path / f"{name}.gltf", to="gltf", importer="core", force=force)
+    assert (tmp_path / "mesh.bin").read_bytes() == data and (tmp_path / "other.bin").read_bytes() == b"mine"
+    assert len(os.listdir(tmp_path)) == 3
+
+
+def test_materials_that_an_importer_reads_stay(tmp_path):
+    content, data = triangle({"name": "plain", "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 2}}})
+    (tmp_path / "in.gltf").write_text(json.dumps(content))
+    (tmp_path / "mesh.bin").write_bytes(data)
+    [report] = mtlx.convert(tmp_path / "in.gltf", tmp_path / "out.glb", to="gltf", importer="godot")
+    assert (report.state, report.reason) == ("left", "the importer reads all of it")
+    assert glb(tmp_path / "out.glb")[0]["materials"] == content["materials"]
+
+
 def test_core_materials_stay_as_they_are():
     fold = materials.TRANSLATIONS["gltf_pbr", "gltf_pbr_core"]
     random = np.random.default_rng(3)
     for metallic in (0.0, 0.3, 1.0):
-        given = {"base_color": random.uniform(0.05, 0.9, (50, 3)), "metallic": np.full((50, 1), metallic), "roughness": random.uniform(0.1, 1, (50, 1))}
+        given = {"base_color": random.uniform(0, 1, (50, 3)) ** 2, "metallic": np.full((50, 1), metallic), "roughness": random.uniform(0.05, 1, (50, 1))}
         found = fold(given)
         for name, value in given.items():
-            assert np.abs(found[name] - value).max() < 2e-3, name
+            assert np.abs(found[name] - value).max() < 1e-9, name
 
 
 EXAMPLES = sorted((SHARED / "materialx").glob("*.mtlx"))
@@ -410,6 +455,8 @@ TEXTURED = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}
     ("a.gltf", '{"asset": {"version": "1.0"}}', "a.gltf: is not glTF 2.0"),
     ("a.gltf", '{"asset": {"version": "2.0"}, "materials": 5}', "a.gltf: materials is not a list"),
     ("a.gltf", '{"asset": {"version": "2.0"}, "x": NaN}', "a.gltf: NaN is not JSON"),
+    ("a.gltf", '{"asset": {"version": "2.0"}, "materials": [{}], "textures": [5]}', "a.gltf: textures is not a list of objects"),
+    ("a.gltf", '{"asset": {"version": "2.0"}, "materials": [{}], "extensionsUsed": [[]]}', "a.gltf: extensionsUsed is not a list of names"),
     ("a.glb", "glTF", "a.glb: is cut off"),
     ("a.png", "hello", "a.png: is not a .mtlx, .glb or .gltf file"),
 ])

@@ -117,8 +117,8 @@ class GltfReader:
 
     def __init__(self, path, folder):
         """``folder`` is where images that lie in the file become files of their own."""
-        self.path, self._folder = path, folder
-        self.image_of_path, self._buffers = {}, {}
+        self.path, self.folder = path, folder
+        self.image_of_path, self._buffers, self.files = {}, {}, set()
         try:
             if not os.path.isfile(path):
                 raise Error(f"{path}: cannot be read: file not found", "input")
@@ -136,6 +136,10 @@ class GltfReader:
             raise Error(f"{path}: cannot be read: {reason}", "input") from None
         if not isinstance(self.json, dict) or not str(_object(self.json, "asset", path).get("version", "")).startswith("2."):
             raise Error(f"{path}: is not glTF 2.0", "input")
+        for name in ("textures", "images", "samplers", "bufferViews", "buffers"):
+            self._list(name)
+        for name in ("extensionsUsed", "extensionsRequired"):
+            self._list(name, str)
         self.materials = self._list("materials")
         if len(self.materials) > _MOST_MATERIALS:
             raise Error(f"{path}: has more than {_MOST_MATERIALS} materials", "input")
@@ -165,10 +169,10 @@ class GltfReader:
                 binary = data[at + 8:at + 8 + count]
         return data[20:20 + size], binary
 
-    def _list(self, name):
+    def _list(self, name, kind=dict):
         values = self.json.get(name, [])
-        if not isinstance(values, list) or not all(isinstance(value, dict) for value in values):
-            _fail(self.path, f"{name} is not a list of objects")
+        if not isinstance(values, list) or not all(isinstance(value, kind) for value in values):
+            _fail(self.path, f"{name} is not a list of {'objects' if kind is dict else 'names'}")
         return values
 
     def _item(self, name, index, place):
@@ -289,7 +293,7 @@ class GltfReader:
         image = self._item("images", index, place)
         uri = image.get("uri")
         if isinstance(uri, str) and not uri.startswith("data:"):
-            path = self._beside(uri, place)
+            path = self.beside(uri, place)
             if not os.path.isfile(path):
                 _fail(place, f"{uri}: file not found")
             self.image_of_path[os.path.abspath(path)] = index
@@ -300,13 +304,13 @@ class GltfReader:
             _fail(place, f"images[{index}] is not a PNG, JPEG or WebP image")
         name = image.get("name")
         words = re.sub(r"[^\w-]+", "_", name)[:60] if isinstance(name, str) and name else "image"
-        path = os.path.join(self._folder, f"{words}_{index}.{ending}")
+        path = os.path.join(self.folder, f"{words}_{index}.{ending}")
         if not os.path.exists(path):
             write_file(path, data)
         self.image_of_path[path] = index
         return path, path
 
-    def _beside(self, uri, place):
+    def beside(self, uri, place):
         """The path of a file that this document names, which must lie in its folder."""
         root = os.path.realpath(os.path.dirname(os.path.abspath(self.path)))
         name = unquote(uri)
@@ -315,6 +319,7 @@ class GltfReader:
         path = os.path.join(root, name)
         if os.path.commonpath([root, os.path.realpath(path)]) != root:
             _fail(place, f"{uri}: leads out of the folder of the document")
+        self.files.add(os.path.realpath(path))
         return path
 
     @staticmethod
@@ -336,7 +341,7 @@ class GltfReader:
             uri = buffer.get("uri")
             if not isinstance(uri, str):
                 _fail(place, f"buffers[{index}] has no data")
-            path = "" if uri.startswith("data:") else self._beside(uri, place)
+            path = "" if uri.startswith("data:") else self.beside(uri, place)
             if path and not os.path.isfile(path):
                 _fail(place, f"{uri}: file not found")
             self._buffers[index] = self._mapped(path) if path else memoryview(self._decoded(uri, place))
@@ -385,18 +390,18 @@ class GltfWriter:
     def _copy_buffers(self, base):
         if "EXT_meshopt_compression" in self.json.get("extensionsUsed", ()):
             raise Error(f"{base.path}: is compressed by EXT_meshopt_compression (decompress it first)", "input")
-        places = [self._append(base.buffer(index, "buffers")) for index in range(len(self.json.get("buffers", [])))]
+        places = [self._append(base.buffer(index, base.path)) for index in range(len(self.json.get("buffers", [])))]
         for view in self.json.get("bufferViews", []):
-            index = _index(view, "buffer", "bufferViews")
+            index = _index(view, "buffer", f"{base.path}: bufferViews")
             if index >= len(places):
                 _fail(base.path, f"buffers[{index}] does not exist")
-            view.update(buffer=0, byteOffset=places[index] + _index(view, "byteOffset", "bufferViews", 0))
+            view.update(buffer=0, byteOffset=places[index] + _index(view, "byteOffset", f"{base.path}: bufferViews", 0))
 
     def _copy_images(self, base):
         for index, image in enumerate(self.json.get("images", [])):
             uri = image.get("uri")
             if isinstance(uri, str) and not uri.startswith("data:"):
-                path = base._beside(uri, f"images[{index}]")
+                path = base.beside(uri, f"{base.path}: images[{index}]")
                 if os.path.isfile(path):
                     image.clear()
                     image.update(self._image_of(path))
@@ -436,7 +441,7 @@ class GltfWriter:
         return {"uri": quote(file.replace(os.sep, "/"))}
 
     def _is_extracted(self, path):
-        return self._base is not None and path.startswith(self._base._folder + os.sep)
+        return self._base is not None and path.startswith(self._base.folder + os.sep)
 
     def _image(self, key, **given):
         if key not in self._made:
@@ -653,17 +658,15 @@ class GltfWriter:
 
     def _finish(self):
         """The extensions that are used, and the buffer."""
-        def names(value):
+        used, rest = set(), [self.json]
+        while rest:
+            value = rest.pop()
             if isinstance(value, dict):
                 found = value.get("extensions")
-                yield from found if isinstance(found, dict) else ()
-                for inner in value.values():
-                    yield from names(inner)
+                used.update(found if isinstance(found, dict) else ())
+                rest += value.values()
             elif isinstance(value, list):
-                for inner in value:
-                    yield from names(inner)
-
-        used = set(names(self.json))
+                rest += value
         for word in ("extensionsUsed", "extensionsRequired"):
             kept = [name for name in self.json.pop(word, []) if name in used or name not in (*EXTENSIONS, _TRANSFORM)]
             if word == "extensionsUsed":
@@ -678,15 +681,20 @@ class GltfWriter:
             if not self._is_binary:
                 self.json["buffers"][0]["uri"] = quote(f"{self._stem}.bin")
 
-    def save(self):
+    def save(self, force):
         """Writes the document, after all files that it names."""
         self._finish()
+        if self._length and not self._is_binary:
+            self._files[os.path.join(self._parent, f"{self._stem}.bin")] = b"".join(self._pieces)
+        for path in self._files:
+            if self._base and os.path.realpath(path) in self._base.files:
+                raise Error(f"{path}: is read by {self._base.path} (choose another name for the result)", "output")
+            if os.path.exists(path) and not force:
+                raise Error(f"{path}: exists (use --force to replace it)", "output")
         folder = os.path.join(self._parent, f"{self._stem}_textures")
-        os.makedirs(folder if self._files else self._parent, exist_ok=True)
+        os.makedirs(folder if any(path.startswith(folder + os.sep) for path in self._files) else self._parent, exist_ok=True)
         for path, data in self._files.items():
             write_file(path, data)
-        if self._length and not self._is_binary:
-            write_file(os.path.join(self._parent, f"{self._stem}.bin"), b"".join(self._pieces))
         text = json.dumps(self.json, ensure_ascii=False, allow_nan=False, indent=None if self._is_binary else 1).encode("utf-8")
         with replacing(os.path.abspath(self._output)) as unfinished, open(unfinished, "wb") as file:
             if not self._is_binary:

@@ -255,15 +255,16 @@ class MtlxWriter:
     """A new document of materials."""
 
     def __init__(self, output, model, reader):
-        self._output, self._model, self._extracted = output, model, reader._folder + os.sep if hasattr(reader, "_folder") else None
+        self._output, self._model, self._extracted = output, model, getattr(reader, "folder", None)
         self._parent, self._stem = os.path.dirname(os.path.abspath(output)), os.path.splitext(os.path.basename(output))[0]
         self._textures = os.path.join(os.path.dirname(output), f"{self._stem}_textures")
-        self._document, self._edits, self._copies = mx.createDocument(), [], {}
+        self._document, self._edits, self._copies, self._names = mx.createDocument(), [], {}, {}
+        self._looks = reader.document.getLooks() if isinstance(reader, MtlxReader) else ()
         self._document.setColorSpace("lin_rec709")
 
     def _file_of(self, texture):
         path = texture.path
-        if self._extracted and path.startswith(self._extracted):
+        if self._extracted and path.startswith(self._extracted + os.sep):
             name = os.path.basename(path)
             self._copies[os.path.join(self._textures, name)] = path
             return f"{self._stem}_textures/{name}"
@@ -276,6 +277,7 @@ class MtlxWriter:
         unique = self._document.createValidChildName(name)
         edit.put_into_files(lambda one: os.path.join(self._textures, f"{unique}_{one}.png"))
         self._edits.append(edit)
+        self._names[name] = unique
         nodes = None
         shader = self._document.addNode(self._model, self._document.createValidChildName(f"{unique}_surface"), "surfaceshader")
         surface = self._document.addNode("surfacematerial", unique, "material")
@@ -305,8 +307,13 @@ class MtlxWriter:
                 lost.append(one)
         return tuple(path if os.path.isabs(self._output) else os.path.relpath(path) for path, *_ in edit.files()), tuple(lost)
 
-    def save(self):
+    def save(self, _):
         """Writes the document, after all files that it names."""
+        for look in self._looks:
+            copy = self._document.addLook(look.getName())
+            for given in look.getMaterialAssigns():
+                if given.getMaterial() in self._names and not given.getCollectionString():
+                    copy.addMaterialAssign(given.getName(), self._names[given.getMaterial()]).setGeom(given.getGeom())
         has_files = self._copies or any(edit.files() for edit in self._edits)
         os.makedirs(os.path.abspath(self._textures) if has_files else self._parent, exist_ok=True)
         for edit in self._edits:

@@ -115,9 +115,10 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
             raise Error(f"{source}: has no materials", "input")
         writer = _writer_of(output, reader, _MODELS[to], importer)
         reports = [_converted(reader, writer, index, _MODELS[to], importer) for index in range(len(reader.materials))]
-        if not dry_run and any(report.state == "converted" for report in reports):
+        kept = ("converted", "left") if all(is_gltf) else ("converted",)  # a copy also has what is left
+        if not dry_run and any(report.state in kept for report in reports):
             try:
-                writer.save()
+                writer.save(force)
             except OSError as failure:
                 raise Error(f"{output}: cannot be written: {failure.strerror}", "output") from None
     return reports
