@@ -303,7 +303,7 @@ def chain_shader(models, own=None):
 
 def model_of(name):
     """Returns the model of a target: a translation may have a second form, such as UsdPreviewSurface_specular."""
-    return name.removesuffix("_specular")
+    return name.removesuffix("_specular").removesuffix("_core")
 
 
 def connect(sources, node):

@@ -294,7 +294,7 @@ MaterialLibrary load_library() {
     return *std::ranges::find(library.models, id, &MaterialModel::id);
   };
   // In the order of demand.
-  constexpr std::array<std::array<const char*, 3>, 8> kShipped = {
+  constexpr std::array<std::array<const char*, 3>, 9> kShipped = {
       {{"UsdPreviewSurface", "open_pbr_surface", ""},
        {"principled", "open_pbr_surface", ""},
        {"open_pbr_surface", "UsdPreviewSurface", ""},
@@ -302,7 +302,8 @@ MaterialLibrary load_library() {
        {"open_pbr_surface", "gltf_pbr", ""},
        {"standard_surface", "open_pbr_surface", ""},
        {"open_pbr_surface", "standard_surface", ""},
-       {"gltf_pbr", "open_pbr_surface", ""}}};
+       {"gltf_pbr", "open_pbr_surface", ""},
+       {"gltf_pbr", "gltf_pbr", "_core"}}};
   for (const auto& [from, to, variant] : kShipped) {
     const std::string name = std::string(from) + "_to_" + to + variant;
     library.translations.push_back(

@@ -510,6 +510,28 @@ auto edge_lift(T0 r, T1 tint) {
   return 0.14f * root(r) * (1.0f - r) * most(0.0f, tint - 0.95f);
 }
 
+template <class T0>
+auto average(T0 c) {
+  return (c[static_cast<int>(0.0f)] + c[static_cast<int>(1.0f)] + c[static_cast<int>(2.0f)]) / 3.0f;
+}
+
+// Two highlights of strengths f and g and of widths p and q (alpha^2) as one of the width a: what a lobe of another width adds to its
+// strength, the square of what it explains of both, and the better one of two widths.
+template <class T0, class T1>
+auto overlap(T0 a, T1 p) {
+  return 2.0f * a / (a + p);
+}
+
+template <class T0, class T1, class T2, class T3, class T4>
+auto explained(T0 a, T1 f, T2 p, T3 g, T4 q) {
+  return a * square(f / (a + p) + g / (a + q));
+}
+
+template <class T0, class T1, class T2, class T3, class T4, class T5>
+auto closer_width(T0 a, T1 b, T2 f, T3 p, T4 g, T5 q) {
+  return (explained(a, f, p, g, q) > explained(b, f, p, g, q) ? a : b);
+}
+
 // UsdPreviewSurface to OpenPBR.
 // Lost: opacityThreshold and occlusion. Specular colours keep their reflectance at normal incidence, and lose some at the edge.
 inline OpenPbrSurface UsdPreviewSurface_to_open_pbr_surface(const UsdPreviewSurface& source) {
@@ -910,6 +932,66 @@ inline OpenPbrSurface gltf_pbr_to_open_pbr_surface(const GltfPbr& source) {
   target.emission_luminance = light * source.emissive_strength;
   target.emission_color = (glow > 0.0f ? source.emissive / most(1.0f, glow) : Color(1.0f));
   target.geometry_opacity = (source.alpha_mode == 0.0f ? 1.0f : source.alpha);
+  return target;
+}
+
+// glTF PBR with extensions to core glTF, which has one highlight: F0 is .04 for dielectrics and the base colour for metals. Mean error
+// of pictures .10; dropped extensions leave .21, the best parameters .09.
+// Lost: iridescence, dispersion, attenuation, rotation of anisotropy. Transmission becomes opacity, which was not measured.
+inline GltfPbr gltf_pbr_to_gltf_pbr_core(const GltfPbr& source) {
+  GltfPbr target;
+  const float m = source.metallic;
+  const float w = source.clearcoat;
+  const float t = source.transmission * (1.0f - m);
+  // What a stretched highlight shows if it is round: see round_by. Widths are alpha^2, the fourth power of roughness.
+  const float alpha_b = most(1e-04f, square(source.roughness));
+  const float alpha_t = mix(alpha_b, 1.0f, square(source.anisotropy_strength));
+  const float b = alpha_b / alpha_t;
+  const float base_width = least(1.0f, square(alpha_t) * (1.0f + square(b)) / 2.0f * square(square(round_by(b))));
+  const float coat_width = most(1e-04f, square(square(source.clearcoat_roughness)));
+  // What comes from below the coat and the sheen. A quarter of its roughness is what sheen reflects on the mean.
+  const float sheen_part = 0.25f * source.sheen_roughness;
+  const float kept = (1.0f - 0.04f * w) * (1.0f - sheen_part * largest(source.sheen_color));
+  const Color dielectric_f0 = source.specular * least(1.0f, f0(source.ior) * source.specular_color);
+  const Color base_f0 = kept * mix(dielectric_f0, source.base_color, m);
+  const float f_base = average(base_f0);
+  const float f_coat = 0.04f * w;
+  // The highlight that replaces two: of five widths between theirs, the one that leaves the least square error. For lobes with the shape
+  // of a Gaussian, that is the width whose score is the largest.
+  const float quarter = root(root(base_width / coat_width));
+  const float width1 = closer_width(coat_width, base_width, f_base, base_width, f_coat, coat_width);
+  const float width2 = closer_width(coat_width * quarter, width1, f_base, base_width, f_coat, coat_width);
+  const float width3 = closer_width(coat_width * square(quarter), width2, f_base, base_width, f_coat, coat_width);
+  const float width4 = closer_width(coat_width * (quarter * square(quarter)), width3, f_base, base_width, f_coat, coat_width);
+  const float base_share = overlap(width4, base_width);
+  const Color f = base_f0 * base_share + f_coat * overlap(width4, coat_width);
+  // Half of what is wider than this highlight looks like diffuse light. Sheen does so, too.
+  const Color under = (1.0f - m) * kept * (1.0f - largest(dielectric_f0)) / 0.96f * source.base_color;
+  const Color diffuse = under + source.sheen_color * sheen_part + 0.5f * most(0.0f, 1.0f - base_share) * base_f0;
+  // Where d is diffuse and f is F0, a base colour c and a share x of dielectric have to give d = x c and f = .04 x + (1 - x) c. Of the two
+  // solutions, the one that is closer to the source leaves core materials as they are. Half of an F0 below .04 x is taken from d.
+  const float mean_d = average(diffuse);
+  const float mean_f = average(f);
+  const float sum = mean_d + mean_f;
+  const float apart = root(most(0.0f, square(mean_d - mean_f) + 4.0f * mean_d * (mean_f - 0.04f)));
+  const float x = most(0.0f, least(1.0f, (sum > 0.08f * (1.0f - m) ? sum - apart : sum + apart) / 0.08f));
+  const Color rest = f - 0.04f * x;
+  const Color shown = most(0.0f, least(1.0f, diffuse + most(rest, 0.5f * rest)));
+  target.metallic = 1.0f - x;
+  // A highlight that is weaker than the target's is wider, which leaves the least square error.
+  const float shown_f = 0.04f * x + (1.0f - x) * average(shown);
+  const float weak = most(0.2f, 2.0f * root(least(1.0f, mean_f / most(1e-04f, shown_f))) - 1.0f);
+  target.roughness = least(1.0f, root(root(width4 / weak)));
+  // Glass lets light through by its opacity. A tenth stays, or its highlights would vanish as well.
+  const float clear = t * average(source.base_color);
+  const float opacity = most(0.1f, 1.0f - clear);
+  target.base_color = shown * (1.0f - t) / opacity;
+  target.alpha = source.alpha * opacity;
+  target.alpha_mode = (t > 0.0f ? 2.0f : source.alpha_mode);
+  target.alpha_cutoff = source.alpha_cutoff;
+  target.occlusion = source.occlusion;
+  target.emissive = source.emissive;
+  target.emissive_strength = source.emissive_strength;
   return target;
 }
 

@@ -45,7 +45,7 @@ def drawn(models, model, random):
 
 def header_values(generated, module, compiler, folder, direction, source):
     """Returns the outputs of the C++ header, by the loop over maps."""
-    start, end = direction[0], direction[1].replace("_specular", "")
+    start, end = direction[0], re.sub("_specular$|_core$", "", direction[1])
 
     def type_name(model):
         return "".join(part[0].upper() + part[1:] for part in model.split("_"))
@@ -162,7 +162,7 @@ def check_graphs_in_material_x(generated):
     assert library.getNodeDef("ND_open_pbr_surface_to_standard_surface").getOutput("coat_affect_color_out")
     for name in re.findall('nodedef name="ND_([^"]*_to_[^"]*)"', (generated / "materialx/remap_translation.mtlx").read_text()):
         source, target = name.split("_to_")
-        if target.endswith("_specular"):
+        if target.endswith(("_specular", "_core")):
             continue
         document = mx.createDocument()
         document.setDataLibrary(library)

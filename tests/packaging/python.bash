@@ -15,7 +15,7 @@ skip() {
   skip "its headers are missing (apt-get install python3-dev)"
 "$python" -m venv "$work/venv" >/dev/null 2>&1 || skip "it makes no environments (apt-get install python3-venv)"
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check -c "$source_folder/packages/python/pinned.txt" scikit-build-core nanobind numpy pytest hypothesis OpenImageIO \
-  usd-core >"$work/pip.log" 2>&1 || skip "packages cannot be installed: $(tail -n 1 "$work/pip.log")"
+  usd-core MaterialX >"$work/pip.log" 2>&1 || skip "packages cannot be installed: $(tail -n 1 "$work/pip.log")"
 
 # Without optimiser nanobind also checks that objects of Python are touched under the interpreter's lock alone.
 expect_exit 0 env SKBUILD_BUILD_DIR="$work/module" "$work/venv/bin/pip" install --disable-pip-version-check --no-build-isolation \
@@ -25,5 +25,6 @@ cp -r "$source_folder/packages" "$work/packages"
 rm -r "$work/packages/python/texremap"
 ln -s "$source_folder/fits" "$source_folder/generated" "$work"
 cd "$work/packages/python/tests"
+export REMAP_SHARED_DATA=${REMAP_SHARED_DATA:-$source_folder/../shared/data}
 REMAP_TEXREMAP=$build/bin/texremap PYTHONDONTWRITEBYTECODE=1 "$work/venv/bin/python" -m pytest -q -p no:cacheprovider . ||
   fail "tests of the Python package"

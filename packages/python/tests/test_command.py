@@ -133,14 +133,15 @@ def test_case(case, inputs, tmp_path):
             assert pair[0].read_bytes() == pair[1].read_bytes(), file
 
 
-def test_help_shows_usd():
+def test_help_shows_the_commands_of_the_package():
     shown = subprocess.run([sys.executable, "-m", "texremap", "--help"], check=True, capture_output=True, text=True).stdout
     assert shown.startswith("Convert ")
-    assert "\nOnly in the Python package:\n  usd " in shown
+    assert "\nOnly in the Python package:\n  mtlx " in shown and "\n  usd " in shown
 
 
 def test_manual_pages_and_completion_are_installed():
     installed = {path.as_posix().rpartition("share/")[2]: path for path in importlib.metadata.files("texremap")}
-    assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "man/man1/texremap-usd.1", "bash-completion/completions/texremap",
-            "zsh/site-functions/_texremap", "fish/vendor_completions.d/texremap.fish"} <= installed.keys()
+    assert {"man/man1/texremap.1", "man/man1/texremap-convert.1", "man/man1/texremap-mtlx.1", "man/man1/texremap-usd.1",
+            "bash-completion/completions/texremap", "zsh/site-functions/_texremap",
+            "fish/vendor_completions.d/texremap.fish"} <= installed.keys()
     assert "'usd '*)" in installed["bash-completion/completions/texremap"].read_text()

@@ -1,35 +1,37 @@
-"""The command ``texremap``: the program of the C++ build, over images by OpenImageIO's Python package; and
-``texremap usd``, which only this package has."""
+"""The command ``texremap``: the program of the C++ build, over images by OpenImageIO's Python package; and the commands
+``texremap mtlx`` and ``texremap usd``, which only this package has."""
 
+import importlib
 import sys
 import textwrap
 
 from . import _core
-from ._usd_options import SUMMARY, usd_parser
+from ._options import COMMANDS
 
 _HELP = ("-h", "--help")
 
 
-def _run_usd(words):
+def _run_own(name, words):
+    parser = COMMANDS[name][1]()
+    if any(word in _HELP for word in words):
+        parser.print_help()
+        return 0
     try:
-        from . import usd
+        return importlib.import_module(f".{name}", __package__).main(words)
     except ImportError as failure:
-        if any(word in _HELP for word in words):
-            usd_parser().print_help()
-            return 0
         print(f"texremap: {failure}", file=sys.stderr)
         return 1
-    return usd.main(words)
 
 
 def main():
     words = sys.argv[1:]
-    if words[:1] == ["usd"]:
-        return _run_usd(words[1:])
+    if words[:1] and words[0] in COMMANDS:
+        return _run_own(words[0], words[1:])
     status = _core.run(words, True)
     if words[:1] and words[0] in _HELP:
-        lines = textwrap.wrap(SUMMARY, 54)
-        print("\nOnly in the Python package:\n  usd".ljust(55) + ("\n" + " " * 26).join(lines))
+        print("\nOnly in the Python package:")
+        for name, (summary, _) in COMMANDS.items():
+            print(f"  {name}".ljust(26) + ("\n" + " " * 26).join(textwrap.wrap(summary, 54)))
     return status
 
 

@@ -4,26 +4,27 @@ Needs usd-core (the extra ``usd``); materials with textures also need OpenImageI
 sublayers the old one, which stays as it is: ``texremap usd scene.usda --to openpbr -o scene_openpbr.usda``.
 """
 
-import json
 import os
 import re
-import sys
 from typing import List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
 from . import materials
+from ._edit import Edit, losses
 from ._error import Error
 from ._files import replacing
-from ._usd_options import TARGETS, usd_parser
+from ._networks import Procedural
+from ._options import USD_TARGETS as TARGETS, usd_parser
+from ._surface import MaterialReport, require_output, run
+from ._textures import Texture, tiles_of
 
 try:
     from pxr import Gf, Sdf, Usd, UsdShade
 except ImportError as failure:
     raise ImportError(f"USD files cannot be read: {failure} (pip install usd-core)") from failure
 
-from ._usd_networks import OPEN_PBR_ID, MaterialXNodes, PreviewNodes, Procedural, source_of, value_of
-from ._usd_textures import Texture, baked, tiles_of, write
+from ._usd_networks import OPEN_PBR_ID, PreviewNodes, SurfaceNodes, source_of, value_of
 
 # Of the stage, which a layer does not take from its sublayers.
 _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
@@ -31,24 +32,6 @@ _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit",
 _PREVIEW, _OPEN_PBR = "UsdPreviewSurface", "open_pbr_surface"
 _INTEGERS = {"useSpecularWorkflow", "opacityMode"}
 _ROUGHNESS = 0.5  # any: both ends of a workflow share a BRDF, so that roughness stays
-_PROBES = 16
-_SAME = 1e-5  # values that no picture tells apart
-# A lobe whose weight is 0 shows nothing of its other inputs.
-_WEIGHTS = {"fuzz_": "fuzz_weight", "transmission_": "transmission_weight", "subsurface_": "subsurface_weight",
-            "thin_film_": "thin_film_weight", "coat_": "coat_weight"}
-
-
-class MaterialReport(NamedTuple):
-    """What became of a material."""
-
-    path: str
-    state: str
-    """``"converted"``, ``"left"`` (there is nothing to convert) or ``"failed"``."""
-    reason: str = ""
-    textures: Tuple[str, ...] = ()
-    """The files that were written for it."""
-    lost: Tuple[str, ...] = ()
-    """Inputs that the result does not show, each with a reason behind a colon, or without one where the target lacks the input."""
 
 
 class _Direction(NamedTuple):
@@ -106,56 +89,31 @@ class _MaterialEdit:
 
     def __init__(self, material, shader, to, translate, folder):
         self._material, self._shader, self._to, self._folder = material, shader, to, folder
-        self._direction, self._translate = _DIRECTIONS[to], translate
-        self._values, self._textures, self._bakes, self._normals = {}, {}, {}, {}
-        self.lost = []
-
-    def convert(self):
-        """Computes everything, before anything is written."""
-        constants, textures = self._sources()
+        self._direction, self._normals, self.lost = _DIRECTIONS[to], {}, []
+        sources = self._sources()
         if self._direction.writes != self._direction.reads:
             self._find_normals()
-            self._find_losses(constants, textures)
-        results, moves = self._probe(constants, textures)
-        for name in self._direction.makes:
-            found = moves[name]
-            if not found:
-                self._values[name] = results[name][0]
-            elif len(found) == 1 and self._connect(name, found[0], textures, results):
-                tiles_of(textures[found[0]].path, found[0])
-            else:
-                self._bakes[name] = found
-        self._bake(constants, textures)
-        return self
+            self.lost += losses(self._direction.reads, self._direction.lost, sources)
+            if to == "preview" and shader.GetInput("geometry_coat_normal"):
+                self.lost.append("geometry_coat_normal")
+        self._edit = Edit(self._direction.reads, sources, self._direction.makes, translate)
+        words = str(material.GetPath()).strip("/").replace("/", "_")
+        self._edit.put_into_files(lambda name: os.path.join(folder, f"{words}_{name}.png"))
 
     def _sources(self):
-        constants, textures = {}, {}
-        defaults = materials.MODELS[self._direction.reads]
+        sources, defaults = {}, materials.MODELS[self._direction.reads]
         for name in self._direction.takes:
             default = defaults[name] if isinstance(defaults[name], tuple) else (defaults[name],)
             try:
-                source = source_of(self._shader, name, default)
+                sources[name] = source_of(self._shader, name, default)
             except Procedural as failure:
                 if self._direction.reads == self._direction.writes:
                     raise
-                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
-                source = default
-            if isinstance(source, Texture) and name == "ior":
+                self.lost.append(failure.words_about(name))
+                sources[name] = default
+            if isinstance(sources[name], Texture) and name == "ior":
                 raise Error("ior has a texture", "input")
-            if isinstance(source, Texture):
-                textures[name] = self._fitted(source, len(default))
-            else:
-                constants[name] = np.array((source * len(default))[:len(default)], float)
-            if not isinstance(source, Texture) and not np.isfinite(constants[name]).all():
-                raise Error(f"{name} is not a finite number", "input")
-        return constants, textures
-
-    @staticmethod
-    def _fitted(texture, channels):
-        """A number of a texture of colors is its red; a color of a channel is grey."""
-        if channels == 1 and texture.is_color():
-            return texture._replace(channels="r", scale=texture.scale[:1], bias=texture.bias[:1])
-        return texture
+        return sources
 
     def _find_normals(self):
         names = {"openpbr": {"normal": ("geometry_normal", "geometry_coat_normal")},
@@ -164,129 +122,32 @@ class _MaterialEdit:
             try:
                 source = source_of(self._shader, name, None)
             except Procedural as failure:
-                self.lost.append(f"{name}: {str(failure).removeprefix(name + ' ')}")
+                self.lost.append(failure.words_about(name))
                 continue
             if isinstance(source, Texture):
                 tiles_of(source.path, name)
                 for target in targets:
                     self._normals[target] = source
 
-    def _find_losses(self, constants, textures):
-        defaults = materials.MODELS[self._direction.reads]
-        for name in self._direction.lost:
-            weight = next((word for prefix, word in _WEIGHTS.items() if name.startswith(prefix)), name)
-            is_hidden = weight in constants and not constants[weight].any() and weight in defaults
-            is_plain = name in constants and np.allclose(constants[name], np.ravel(defaults[name]))
-            if name in textures or not (is_plain or (is_hidden and weight != name)):
-                self.lost.append(name)
-        if self._to == "preview" and self._shader.GetInput("geometry_coat_normal"):
-            self.lost.append("geometry_coat_normal")
-
-    def _probe(self, constants, textures):
-        """Returns the outputs for random values of the textures, and which textures move each output."""
-        random = np.random.default_rng(1)
-        defaults = materials.MODELS[self._direction.reads]
-        self._probed = {name: texture.values_of(random.random((_PROBES, 3 if texture.is_color() else 1)))
-                        for name, texture in textures.items()}
-        given = {name: np.broadcast_to(value, (_PROBES, value.size)) for name, value in constants.items()}
-        given.update({name: np.broadcast_to(value, (_PROBES, np.size(defaults[name]))) for name, value in self._probed.items()})
-
-        def translated(values):
-            result = self._translate(values)
-            rows = {name: np.atleast_2d(np.asarray(result[name], float)) for name in self._direction.makes}
-            return {name: np.broadcast_to(row, (_PROBES, row.shape[1])) for name, row in rows.items()}
-
-        results = translated(given)
-        moves = {name: [] for name in self._direction.makes}
-        for texture in textures:
-            held = {name: value if name == texture else np.broadcast_to(value[:1], value.shape) for name, value in given.items()}
-            for name, values in translated(held).items():
-                if np.ptp(values, axis=0).max() > _SAME:
-                    moves[name].append(texture)
-        return results, moves
-
-    def _connect(self, name, source, textures, results):
-        """Whether an output is a texture of the source with a scale and a bias, which is then kept."""
-        texture, given, made = textures[source], self._probed[source], results[name]
-        if given.shape[1] != made.shape[1]:
-            return False
-        scales, biases = [], []
-        for channel in range(made.shape[1]):
-            matrix = np.stack([given[:, channel], np.ones(len(given))], axis=1)
-            (scale, bias), *_ = np.linalg.lstsq(matrix, made[:, channel], rcond=None)
-            if np.abs(matrix @ (scale, bias) - made[:, channel]).max() > _SAME:
-                return False
-            scales.append(round(float(scale), 6))
-            biases.append(round(float(bias), 6))
-        self._textures[name] = texture.scaled(scales, biases)
-        return True
-
-    def _bake(self, constants, textures):
-        """Converts the textures of the outputs that depend on more than a scale and a bias."""
-        self._baked = {}
-        needed = sorted({source for sources in self._bakes.values() for source in sources})
-        if not needed:
-            return
-        if len({textures[name].place for name in needed}) > 1:
-            raise Error("its textures lie on different coordinates", "input")
-        given = {name: textures[name] for name in needed}
-        rest = {name: np.zeros(1 if np.ndim(materials.MODELS[self._direction.reads][name]) == 0 else 3)
-                for name in textures if name not in needed}
-        for tile, (arrays, deep) in baked(self._translate, {**constants, **rest}, given, self._bakes).items():
-            for name, values in arrays.items():
-                self._baked.setdefault(name, {})[tile] = values, deep
-        model = textures[needed[0]]
-        for name, tiles in self._baked.items():
-            values = [tile_values for tile_values, _ in tiles.values()]
-            first, count = values[0][0, 0], values[0].shape[-1]
-            if all((tile == first).all() for tile in values):
-                self._values[name] = first
-                continue
-            scale, bias = self._fit_into_file(name)
-            file = self._file(name) if "" in tiles else self._file(name).replace(".png", ".<UDIM>.png")
-            self._textures[name] = Texture(file, os.path.abspath(file), "rgb" if count == 3 else "r", "sRGB" if count == 3 else "raw",
-                                           (scale,) * count, (bias,) * count, model.wrap, model.place)
-
-    def _fit_into_file(self, name):
-        """Brings values into the range of a PNG. Returns the scale and the bias that bring them back."""
-        tiles = self._baked[name]
-        low = min(float(values.min()) for values, _ in tiles.values())
-        high = max(float(values.max()) for values, _ in tiles.values())
-        if low >= 0 and high <= 1:
-            return 1.0, 0.0
-        self._baked[name] = {tile: ((values - low) / (high - low), deep) for tile, (values, deep) in tiles.items()}
-        return high - low, low
-
-    def _file(self, name):
-        words = str(self._material.GetPath()).strip("/").replace("/", "_")
-        return os.path.join(self._folder, f"{words}_{name}.png")
-
-    def _baked_files(self):
-        for name, tiles in self._baked.items():
-            if name in self._textures:
-                for tile, (values, deep) in tiles.items():
-                    yield self._textures[name].path.replace("<UDIM>", tile), values, deep
-
     def textures(self):
-        return [os.path.relpath(path) if not os.path.isabs(self._folder) else path for path, *_ in self._baked_files()]
+        return [os.path.relpath(path) if not os.path.isabs(self._folder) else path for path, *_ in self._edit.files()]
 
     def write_textures(self):
-        for path, values, deep in self._baked_files():
-            write(path, values, values.shape[-1] == 3, deep)
+        self._edit.write_files()
 
     def author(self, stage):
         """Writes the material into the edit target of ``stage``."""
-        nodes = (MaterialXNodes if self._direction.writes == _OPEN_PBR else PreviewNodes)(stage, self._material)
+        nodes = (SurfaceNodes if self._direction.writes == _OPEN_PBR else PreviewNodes)(stage, self._material)
         shader = self._target_shader(stage, nodes)
         for name in self._direction.makes:
             kind = self._type_of(name)
-            if name in self._textures:
-                shader.CreateInput(name, kind).ConnectToSource(nodes.texture(name, self._textures[name]))
-            elif name in self._values:
-                self._set(shader, name, kind, self._values[name])
+            if name in self._edit.textures:
+                shader.CreateInput(name, kind).ConnectToSource(nodes.texture(name, self._edit.textures[name]))
+            elif name in self._edit.values:
+                self._set(shader, name, kind, self._edit.values[name])
         for name, texture in self._normals.items():
             kind = Sdf.ValueTypeNames.Normal3f if self._direction.writes == _PREVIEW else Sdf.ValueTypeNames.Float3
-            shader.CreateInput(name, kind).ConnectToSource(nodes.normal(texture))
+            shader.CreateInput(name, kind).ConnectToSource(nodes.normal("normal", texture))
         if self._direction.reads == self._direction.writes:
             self._set(shader, "useSpecularWorkflow", Sdf.ValueTypeNames.Int, [0 if self._to == "metallic" else 1])
 
@@ -295,14 +156,14 @@ class _MaterialEdit:
         if self._direction.reads == self._direction.writes:
             return UsdShade.Shader(stage.GetPrimAtPath(self._shader.GetPath()))
         if self._direction.writes == _OPEN_PBR:
-            shader, _ = nodes.node("surface", "OpenPBR", OPEN_PBR_ID)
+            shader, _ = nodes.shader("surface", "OpenPBR", OPEN_PBR_ID)
             # The schema is not in every build of USD.
             material.GetPrim().AddAppliedSchema("MaterialXConfigAPI")
             version = material.GetPrim().CreateAttribute("config:mtlx:version", Sdf.ValueTypeNames.String, False)
             version.Set("1.39")
             surface = material.CreateSurfaceOutput("mtlx")
         else:
-            shader, _ = nodes.node("surface", "PreviewSurface", "UsdPreviewSurface")
+            shader, _ = nodes.shader("surface", "PreviewSurface", "UsdPreviewSurface")
             surface = material.CreateSurfaceOutput()
         word = "out" if self._direction.writes == _OPEN_PBR else "surface"
         surface.ConnectToSource(shader.CreateOutput(word, Sdf.ValueTypeNames.Token))
@@ -374,7 +235,7 @@ def _plan(stage, to, folder):
             elif prim.IsInstanceProxy():
                 yield MaterialReport(path, "failed", "it lies in an instance, which a layer cannot change")
             else:
-                yield path, _MaterialEdit(UsdShade.Material(prim), shader, to, translate, folder).convert()
+                yield path, _MaterialEdit(UsdShade.Material(prim), shader, to, translate, folder)
         except (Error, ValueError, ImportError) as failure:
             yield MaterialReport(path, "failed", str(failure))
 
@@ -404,12 +265,7 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
     source, output = os.fspath(source), os.fspath(output)
     if to not in TARGETS:
         raise Error(f"to: unknown target '{to}' (choose {', '.join(TARGETS[:-1])} or {TARGETS[-1]})")
-    if os.path.splitext(output)[1] not in (".usda", ".usdc", ".usd"):
-        raise Error(f"{output}: a layer is .usda, .usdc or .usd", "output")
-    if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):
-        raise Error(f"{output}: is the input (choose another name)", "output")
-    if os.path.exists(output) and not force:
-        raise Error(f"{output}: exists (use --force to replace it)", "output")
+    require_output(source, output, (".usda", ".usdc", ".usd"), force)
     try:
         stage = Usd.Stage.Open(source)
     except Exception as failure:  # Tf.ErrorException
@@ -452,26 +308,7 @@ def _write_layer(root, edits, output, folder):
         raise Error(f"{output}: cannot be written: {failure.strerror}", "output") from None
 
 
-def _line_of(report):
-    if report.state != "converted":
-        return f"{report.state}: {report.reason}"
-    lost = f"; not converted: {', '.join(report.lost)}" if report.lost else ""
-    return "converted" + "".join(f", {file}" for file in report.textures) + lost
-
-
 def main(words: Optional[List[str]] = None) -> int:
     options = usd_parser().parse_args(words)
-    try:
-        reports = convert(options.source, options.output, to=options.to, force=options.force, dry_run=options.dry_run)
-    except Error as failure:
-        print(f"texremap: {failure}", file=sys.stderr)
-        return 2 if failure.kind == "usage" else 1
-    for report in reports:
-        if options.json:
-            print(json.dumps(report._asdict()))
-        else:
-            print(f"texremap: {report.path}: {_line_of(report)}", file=sys.stderr)
-    counts = [sum(report.state == state for report in reports) for state in ("converted", "left", "failed")]
-    if not options.json:
-        print("texremap: {}: {} converted, {} left, {} failed".format(options.output, *counts), file=sys.stderr)
-    return 1 if counts[2] else 0
+    return run(lambda: convert(options.source, options.output, to=options.to, force=options.force, dry_run=options.dry_run),
+               options.output, options.json)

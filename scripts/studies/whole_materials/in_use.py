@@ -26,6 +26,11 @@ def gltf_to_open_pbr(values):
     return taken
 
 
+def gltf_to_core(values):
+    """Does what importers do that read no extensions."""
+    return {name: values[name] for name in ("base_color", "metallic", "roughness")}
+
+
 def principled_to_open_pbr(values):
     """Does what Blender 5.0 writes into USD files with a MaterialX network. It leaves coat_darkening out, so that it is 1."""
     blender = {**PRINCIPLED_DEFAULTS, **values}
@@ -49,7 +54,7 @@ OFFICIAL = {("open_pbr_surface", "standard_surface"): ("open_pbr_surface", "stan
             ("open_pbr_surface", "UsdPreviewSurface"): ("open_pbr_surface", "standard_surface", "UsdPreviewSurface")}
 OFFICIAL["open_pbr_surface", "UsdPreviewSurface_specular"] = OFFICIAL["open_pbr_surface", "UsdPreviewSurface"]
 COPIED = {("UsdPreviewSurface", "open_pbr_surface"): usd_to_open_pbr, ("gltf_pbr", "open_pbr_surface"): gltf_to_open_pbr,
-          ("principled", "open_pbr_surface"): principled_to_open_pbr}
+          ("principled", "open_pbr_surface"): principled_to_open_pbr, ("gltf_pbr", "gltf_pbr_core"): gltf_to_core}
 
 
 def shader_and_values(direction, values):
@@ -58,11 +63,13 @@ def shader_and_values(direction, values):
         shader = shaders.chain_shader(OFFICIAL[direction])
         return shader, {name: value for name, value in values.items() if name in shader.types}
     defaults = {} if direction[0] == "principled" else shaders.model_shader(direction[0]).defaults
-    return shaders.model_shader(direction[1]), COPIED[direction]({**defaults, **values})
+    return shaders.model_shader(shaders.model_of(direction[1])), COPIED[direction]({**defaults, **values})
 
 
 def name_of(direction):
     """Says what is in use, in the words of a table."""
     if direction in OFFICIAL:
         return "official graph" if len(OFFICIAL[direction]) == 2 else "official chain"
+    if direction[1] == "gltf_pbr_core":
+        return "extensions dropped"
     return "Blender's export" if direction[0] == "principled" else "names copied"

@@ -11,7 +11,7 @@ IN_USE, OURS, FLOOR = "in use", "ours", "floor"
 DIRECTIONS = [("UsdPreviewSurface", "open_pbr_surface"), ("principled", "open_pbr_surface"), ("standard_surface", "open_pbr_surface"),
               ("gltf_pbr", "open_pbr_surface"), ("open_pbr_surface", "UsdPreviewSurface"),
               ("open_pbr_surface", "UsdPreviewSurface_specular"), ("open_pbr_surface", "gltf_pbr"),
-              ("open_pbr_surface", "standard_surface")]
+              ("open_pbr_surface", "standard_surface"), ("gltf_pbr", "gltf_pbr_core")]
 
 
 class Module:
@@ -93,7 +93,7 @@ def floor(direction, values, ours):
     model = shaders.model_of(direction[1])
     stage, target = pictures.stage(direction[0], search.RESOLUTION), shaders.model_shader(model)
     source = stage.under_singles(pictures.shader_of(direction[0]), values)
-    return target, search.closest(stage, source, target, ours + search.STARTS[model])
+    return target, search.closest(stage, source, target, ours, direction[1])
 
 
 def judge(direction, values, translations, with_floor=False):

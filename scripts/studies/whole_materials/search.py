@@ -19,6 +19,7 @@ INPUTS = {
         "base_color": (0, 1), "metallic": (0, 1), "roughness": (0.05, 1), "specular": (0, 1), "specular_color": (0, 1),
         "ior": (1, 3), "anisotropy_strength": (0, 1), "sheen_color": (0, 1), "sheen_roughness": (0.05, 1), "clearcoat": (0, 1),
         "clearcoat_roughness": (0.05, 1)},
+    "gltf_pbr_core": {"base_color": (0, 1), "metallic": (0, 1), "roughness": (0.05, 1)},
     "UsdPreviewSurface": {
         "diffuseColor": (0, 1), "metallic": (0, 1), "specularColor": (0, 1), "roughness": (0.05, 1), "clearcoat": (0, 1),
         "clearcoatRoughness": (0.05, 1), "ior": (1, 3)},
@@ -33,6 +34,7 @@ STARTS = {
                           "specular_roughness": 0.5, "diffuse_roughness": 0.2}],
     "gltf_pbr": [{"base_color": (0.5,) * 3, "metallic": 0.4, "clearcoat": 0.3, "clearcoat_roughness": 0.3, "roughness": 0.5,
                   "sheen_color": (0.1,) * 3, "sheen_roughness": 0.5}],
+    "gltf_pbr_core": [{"base_color": (0.5,) * 3, "metallic": 0.3, "roughness": 0.5}],
     "UsdPreviewSurface": [{"metallic": 0.4, "clearcoat": 0.3, "clearcoatRoughness": 0.3, "roughness": 0.5},
                           {"useSpecularWorkflow": 1.0, "specularColor": (0.3,) * 3, "clearcoat": 0.3, "clearcoatRoughness": 0.3}],
 }
@@ -88,14 +90,17 @@ def minimise(residuals, start, low, high, steps=STEPS):
     return x
 
 
-def closest(stage, source, shader, starts):
+def closest(stage, source, shader, starts, target):
     """Returns the values with the closest pictures to `source`, the pictures of the stage, from the best of the starts.
+
+    `target` is the name of the direction's end. A model has starts of its own.
 
     Inputs that are not searched, such as the workflow of UsdPreviewSurface, stay as each start has them.
     """
-    vector = Vector(INPUTS[shader.name], shader.types)
+    name = target if target in INPUTS else shader.name
+    vector = Vector(INPUTS[name], shader.types)
     found = []
-    for start in starts:
+    for start in starts + STARTS[name]:
         def residuals(x, start=start):
             return (stage.under_singles(shader, {**start, **vector.values(x)}) - source).ravel()
 

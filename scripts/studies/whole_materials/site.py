@@ -14,7 +14,7 @@ SIDE, SAMPLES = 128, 2
 RANDOM = {"open_pbr_surface": 8, "standard_surface": 4, "UsdPreviewSurface": 3, "gltf_pbr": 2, "principled": 3}
 NAMES = {"open_pbr_surface": "OpenPBR", "standard_surface": "standard_surface", "gltf_pbr": "glTF PBR",
          "UsdPreviewSurface": "UsdPreviewSurface", "UsdPreviewSurface_specular": "UsdPreviewSurface, specular workflow",
-         "principled": "Principled"}
+         "principled": "Principled", "gltf_pbr_core": "glTF PBR without extensions"}
 MOST_BYTES = 15_000_000
 
 

@@ -1,4 +1,4 @@
-"""Textures of USD materials: their texels, and new ones."""
+"""Textures of whole materials: their texels, and new ones."""
 
 import glob
 import os
@@ -12,7 +12,7 @@ from ._files import replacing
 
 _PNG_LEVEL = 6
 _BAND = 1 << 18  # texels that are converted at once
-_TILE = "<UDIM>"
+TILE = "<UDIM>"
 _PACKED = ".usdz["  # in the path of a texture inside of a package
 
 
@@ -52,11 +52,11 @@ class Texture(NamedTuple):
 
 def tiles_of(path, name):
     """The words that stand for ``<UDIM>`` on this disk, or one empty word."""
-    if _TILE not in path:
+    if TILE not in path:
         if not os.path.isfile(path.split("[", 1)[0] if _PACKED in path else path):
             raise Error(f"{name}: {path}: file not found", "input")
         return ("",)
-    start, end = path.split(_TILE, 1)
+    start, end = path.split(TILE, 1)
     pattern = re.compile(re.escape(start) + r"(1\d\d\d)" + re.escape(end))
     found = [pattern.fullmatch(file) for file in sorted(glob.glob(glob.escape(start) + "1[0-9][0-9][0-9]" + glob.escape(end)))]
     tiles = tuple(match[1] for match in found if match)
@@ -65,7 +65,7 @@ def tiles_of(path, name):
     return tiles
 
 
-def _linear(values):
+def linear(values):
     low = values <= 0.04045
     return np.where(low, values / 12.92, ((np.maximum(values, 0.04045) + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
 
@@ -78,7 +78,7 @@ def read(texture, tile):
     """Linear values of shape (height, width, 1 or 3), and whether the file has more than 8 bits."""
     from .images import MOST_TEXELS, Images
 
-    path = texture.path.replace(_TILE, tile)
+    path = texture.path.replace(TILE, tile)
     if _PACKED in path:
         raise Error(f"{path}: is in a USDZ package, and must be converted (unpack it: usdunzip, or unzip)", "input")
     image = Images().open(path, 0)
@@ -98,14 +98,14 @@ def read(texture, tile):
     colors = values[..., :1].repeat(3, axis=-1) if count < 3 else values[..., :3]
     # `auto`: 8-bit images of colors are sRGB unless the file says something else (UsdPreviewSurface, Texture Reader).
     if texture.space == "sRGB" or (texture.space == "auto" and dtype == np.uint8 and count >= 3):
-        colors = _linear(colors)
+        colors = linear(colors)
     alpha = values[..., 3:4] if count > 3 else values[..., 1:2] if count == 2 else np.ones_like(values[..., :1])
     four = np.concatenate([colors, alpha], axis=-1)
     place = {"rgb": slice(0, 3), "r": slice(0, 1), "g": slice(1, 2), "b": slice(2, 3), "a": slice(3, 4)}[texture.channels]
     return texture.values_of(four[..., place]).astype(np.float32), dtype != np.uint8
 
 
-def _resized(values, height, width):
+def resized(values, height, width):
     import OpenImageIO as oiio
 
     if values.shape[:2] == (height, width):
@@ -133,7 +133,7 @@ def baked(translate, constants, textures, wanted):
             deep = deep or more
         height = max(values.shape[0] for values in maps.values())
         width = max(values.shape[1] for values in maps.values())
-        flat = {name: _resized(values, height, width).reshape(height * width, -1) for name, values in maps.items()}
+        flat = {name: resized(values, height, width).reshape(height * width, -1) for name, values in maps.items()}
         parts = {name: [] for name in wanted}
         for begin in range(0, height * width, _BAND):
             result = translate({**constants, **{name: values[begin:begin + _BAND] for name, values in flat.items()}})
@@ -143,14 +143,18 @@ def baked(translate, constants, textures, wanted):
     return results
 
 
-def write(path, values, is_color, deep):
-    """Writes a PNG: colors in sRGB, 16 bits if a source has more than 8."""
+def png_of(values, is_color, deep):
+    """The bytes of a PNG: colors in sRGB, 16 bits if a source has more than 8."""
     from .images import Images
 
+    if is_color:
+        values = np.concatenate([_srgb(values[..., :3]), values[..., 3:]], axis=-1)
     most = 65535 if deep else 255
-    stored = np.round(np.clip(_srgb(values) if is_color else values, 0, 1) * most)
-    stored = np.ascontiguousarray(stored, np.uint16 if deep else np.uint8)
+    stored = np.ascontiguousarray(np.round(np.clip(values, 0, 1) * most), np.uint16 if deep else np.uint8)
     height, width, channels = stored.shape
-    image = Images().encode_png(width, height, channels, str(stored.dtype), stored.tobytes(), _PNG_LEVEL)
+    return Images().encode_png(width, height, channels, str(stored.dtype), stored.tobytes(), _PNG_LEVEL)
+
+
+def write_file(path, data):
     with replacing(path) as unfinished, open(unfinished, "wb") as file:
-        file.write(image)
+        file.write(data)
