@@ -204,8 +204,8 @@ def test_documents_become_documents(tmp_path, maps, to, model):
             if hasattr(source_of, "path"):
                 found = texels(source_of.path)
                 found = (linear(found) if source_of.space == "sRGB" else found / 255)[..., :3]
-                channel = {"rgb": slice(0, 3)}.get(source_of.channels, slice("rgba".find(source_of.channels), "rgba".find(source_of.channels) + 1))
-                found = source_of.values_of(found[..., channel])
+                first, count = ("rgba".find(source_of.channels), 1) if source_of.channels != "rgb" else (0, 3)
+                found = source_of.values_of(found[..., first:first + count])
                 assert np.abs(found - expected[name]).max() < 0.01 * max(1, np.max(source_of.scale)), name
     assert np.allclose(surface.normals["normal"].scale, (1, 1, 2)) and np.allclose(surface.normals["normal"].bias, (-0.5, -0.5, -1))
 
@@ -278,8 +278,8 @@ def test_transforms_of_textures_are_those_of_the_specification(tmp_path, maps):
 
 def test_nodes_of_gltf_images_have_the_same_transforms(tmp_path, maps):
     """MaterialX' own node of glTF images, and what texremap reads from glTF."""
-    body = """<gltf_colorimage name="image" type="multioutput"><input name="file" type="filename" value="color.png" colorspace="srgb_texture"/>
-<input name="scale" type="vector2" value="2, 3"/><input name="rotate" type="float" value="40"/>
+    body = """<gltf_colorimage name="image" type="multioutput">
+<input name="file" type="filename" value="color.png" colorspace="srgb_texture"/><input name="scale" type="vector2" value="2, 3"/><input name="rotate" type="float" value="40"/>
 <input name="offset" type="vector2" value="0.3, -0.2"/><input name="color" type="color4" value="0.5, 0.5, 1, 0.25"/></gltf_colorimage>
 <gltf_pbr name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="image" output="outcolor"/>
 <input name="alpha" type="float" nodename="image" output="outa"/><input name="alpha_mode" type="integer" value="2"/></gltf_pbr>
@@ -297,7 +297,8 @@ def test_place2d_is_that_of_material_x(tmp_path, maps):
     body = """<texcoord name="t" type="vector2"/><place2d name="p" type="vector2"><input name="texcoord" type="vector2" nodename="t"/>
 <input name="pivot" type="vector2" value="0.5, 0.25"/><input name="scale" type="vector2" value="0.5, 2"/>
 <input name="rotate" type="float" value="30"/><input name="offset" type="vector2" value="0.1, -0.3"/></place2d>
-<image name="i" type="color3"><input name="file" type="filename" value="color.png"/><input name="texcoord" type="vector2" nodename="p"/></image>
+<image name="i" type="color3"><input name="file" type="filename" value="color.png"/>
+<input name="texcoord" type="vector2" nodename="p"/></image>
 <open_pbr_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></open_pbr_surface>"""
     place = MtlxReader(str(document(tmp_path / "in.mtlx", body=body)), str(tmp_path)).surface(0).sources["base_color"].place
     pivot, c, s = np.array((0.5, 0.25)), math.cos(math.radians(30)), math.sin(math.radians(30))
@@ -382,7 +383,8 @@ def test_what_an_importer_ignores_is_folded(tmp_path, importer, ending):
 
 
 def test_files_that_the_source_reads_are_not_replaced(tmp_path):
-    content, data = triangle({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}}, extensionsUsed=["KHR_materials_clearcoat"])
+    coated = {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}}
+    content, data = triangle(coated, extensionsUsed=["KHR_materials_clearcoat"])
     (tmp_path / "in.gltf").write_text(json.dumps(content))
     (tmp_path / "mesh.bin").write_bytes(data)
     (tmp_path / "other.bin").write_bytes(b"mine")
@@ -406,7 +408,8 @@ def test_core_materials_stay_as_they_are():
     fold = materials.TRANSLATIONS["gltf_pbr", "gltf_pbr_core"]
     random = np.random.default_rng(3)
     for metallic in (0.0, 0.3, 1.0):
-        given = {"base_color": random.uniform(0, 1, (50, 3)) ** 2, "metallic": np.full((50, 1), metallic), "roughness": random.uniform(0.05, 1, (50, 1))}
+        given = {"base_color": random.uniform(0, 1, (50, 3)) ** 2, "metallic": np.full((50, 1), metallic),
+                 "roughness": random.uniform(0.05, 1, (50, 1))}
         found = fold(given)
         for name, value in given.items():
             assert np.abs(found[name] - value).max() < 1e-9, name

@@ -108,8 +108,6 @@ class _DocumentNode(Node):
 class MtlxReader:
     """A MaterialX document."""
 
-    image_of_path: dict = {}
-
     def __init__(self, path, folder):
         self.path = path
         if not os.path.isfile(path):
@@ -272,7 +270,7 @@ class MtlxWriter:
 
     def add(self, name, edit, normals, _):
         """Adds a material. Returns the files of new textures, and inputs that are lost."""
-        lost = [f"{one}: has no texture, and becomes its mean" for one in _TYPES
+        lost = [f"{one}: has no texture, and becomes a constant" for one in _TYPES
                 if one in materials.MODELS[self._model] and edit.settle(one, largest=True)]
         unique = self._document.createValidChildName(name)
         edit.put_into_files(lambda one: os.path.join(self._textures, f"{unique}_{one}.png"))
@@ -285,7 +283,9 @@ class MtlxWriter:
 
         def graph():
             nonlocal nodes
-            nodes = nodes or _GraphNodes(self._document.addNodeGraph(self._document.createValidChildName(f"{unique}_textures")), self._file_of)
+            if nodes is None:
+                place = self._document.createValidChildName(f"{unique}_textures")
+                nodes = _GraphNodes(self._document.addNodeGraph(place), self._file_of)
             return nodes
 
         def connect(one, type, node):

@@ -11,7 +11,8 @@ from typing import List, Optional, Union
 from . import materials
 from ._edit import Edit, losses
 from ._error import Error
-from ._gltf import EXTENSIONS, GltfReader, GltfWriter
+from ._gltf import EXTENSIONS, STRENGTH, TRANSFORM, GltfReader
+from ._gltf_writer import GltfWriter
 from ._options import MTLX_READERS, MTLX_TARGETS, mtlx_parser
 from ._surface import MaterialReport, require_output, run
 from ._textures import Texture
@@ -20,7 +21,7 @@ _HUB, _GLTF = "open_pbr_surface", "gltf_pbr"
 _MODELS = dict(zip(MTLX_TARGETS, (_HUB, "standard_surface", _GLTF)))
 _GLTF_ENDINGS = (".glb", ".gltf")
 # What importers read of the extensions: the core of glTF, Godot 4 (modules/gltf/gltf_document.cpp).
-_ALLOWED = {"core": frozenset(), "godot": frozenset({"KHR_materials_emissive_strength", "KHR_texture_transform"})}
+_ALLOWED = {"core": frozenset(), "godot": frozenset({STRENGTH, TRANSFORM})}
 
 
 class _Route:
@@ -61,7 +62,7 @@ def _reader_of(source, folder):
 
 def _writer_of(output, reader, model, importer):
     if model == _GLTF and output.lower().endswith(_GLTF_ENDINGS):
-        allowed = _ALLOWED[importer] if importer else frozenset({*EXTENSIONS, "KHR_texture_transform"})
+        allowed = _ALLOWED[importer] if importer else frozenset({*EXTENSIONS, TRANSFORM})
         return GltfWriter(output, allowed, reader if isinstance(reader, GltfReader) else None)
     from ._mtlx import MtlxWriter
 
