@@ -12,7 +12,7 @@ complete -c remapc -n __fish_use_subcommand -f -a invert -d 'Fit the inverse of 
 complete -c remapc -n __fish_use_subcommand -f -a build -d 'Make every table, fit and header of fits/manifest.json that is out of date'
 complete -c remapc -n __fish_use_subcommand -f -a list -d 'List the fits of a folder, or the built-in models'
 complete -c remapc -n __fish_use_subcommand -f -a show -d 'Show a fit: models, domain, errors, mapping and its table'
-complete -c remapc -n __fish_use_subcommand -f -a preview -d 'Render a source model and its conversion side by side, and print their similarity'
+complete -c remapc -n __fish_use_subcommand -f -a preview -d 'Render a source and its conversion side by side, for a fit or your texture sets'
 complete -c remapc -n __fish_use_subcommand -f -a eval -d 'Print the errors of a fit on a table, or its values on a grid'
 complete -c remapc -n __fish_use_subcommand -f -a renderers -d 'List the external renderers on this machine: versions, models, parameters'
 complete -c remapc -n __fish_use_subcommand -f -a warp -d 'Give one texture set the reflectance of another, guided by strokes'
@@ -194,6 +194,10 @@ complete -c remapc -n '__fish_seen_subcommand_from show' -l fits -r -F -d 'Folde
 complete -c remapc -n '__fish_seen_subcommand_from show' -l json -d 'Print the fit file itself'
 complete -c remapc -n '__fish_seen_subcommand_from show' -s h -l help -d 'Show this help'
 complete -c remapc -n '__fish_seen_subcommand_from show' -a "(remapc list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')"
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l from -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model of the texture sets'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l to -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model that the texture sets become'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l converters -r -F -d 'Use these converters instead of the shipped ones: a converters.json of `remapc emit --all`, a fit, or a folder of fits'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -s r -l recursive -d 'Find texture sets in subfolders, too'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l fits -r -F -d 'Folder where ids are looked up'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s o -l output -r -F -d 'PNG to write: a row per light, shape and alpha'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l no-labels -d 'Write only the pictures, without names and numbers'
@@ -217,7 +221,6 @@ complete -c remapc -n '__fish_seen_subcommand_from preview' -l worker-processes 
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l worker-timeout -x -d 'Seconds to wait for an answer of a worker'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l cache -r -F -d 'Folder for pictures of workers'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l no-cache -d 'Render every picture and keep none'
-complete -c remapc -n '__fish_seen_subcommand_from preview' -a "(remapc list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')"
 complete -c remapc -n '__fish_seen_subcommand_from eval' -l columns -r -F -d 'Names of columns in the file, OWN=FILE,...'
 complete -c remapc -n '__fish_seen_subcommand_from eval' -l source -l from -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Source model'
 complete -c remapc -n '__fish_seen_subcommand_from eval' -l target -l to -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Target model'
