@@ -86,6 +86,9 @@ Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
           item.choices};
 }
 
+// Limits the words of an option that is a list.
+inline constexpr int kMostWords = 1000;
+
 // A GivenOption is an option from the command line.
 struct GivenOption {
   std::string name;                // `--type`; for words without an option the name in the help
@@ -141,16 +144,22 @@ class Command {
   template <OptionValue T>
   Option* add_option(const std::string& names, T& value, const std::string& description = "");
   // Adds an option whose words `reader` reads after the whole command line is known to be well-formed. Help
-  // lists the choices of the reader.
+  // lists the choices of the reader. A list of values takes a word each time the option is given.
   template <typename Value, typename Read>
   Option* add_option(const std::string& names, Value& value, const Reader<Read>& reader,
                      const std::string& description) {
-    return add_words(
+    constexpr bool kIsList = std::is_same_v<Value, std::vector<Read>>;
+    Option* const added = add_words(
         names,
         [&value, read = reader.read](const std::string& option, const std::string& word) {
-          value = read(option, word);
+          if constexpr (kIsList)
+            value.push_back(read(option, word));
+          else
+            value = read(option, word);
         },
         reader.choices, description);
+    if constexpr (kIsList) added->expected(1, kMostWords)->allow_extra_args(false);
+    return added;
   }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
   // Refuses an option of earlier versions, and prints what to do. Help does not show it.

@@ -232,9 +232,11 @@ bool Conversion::is_made(Parameter parameter) const {
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
-// Returns the largest valid value. Only roughness and specular have no limit.
+// Returns the largest valid value. Roughness, specular without a workflow, and inputs of surfaces, such as an
+// index of refraction, have no limit.
 float Conversion::highest(Parameter parameter) const {
-  return !converter_.converts_brdf_only() && parameter != Parameter::kRoughness ? 1.0f : kLargest;
+  const bool is_fraction = !converter_.converts_brdf_only() && parameter != Parameter::kRoughness;
+  return is_fraction && !is_input(parameter) ? 1.0f : kLargest;
 }
 
 // Returns the row of a map if it holds the values unchanged. Returns null if they must be loaded.
@@ -448,6 +450,7 @@ void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
     Range range{0.0, 1.0};
     if (parameter == Parameter::kRoughness) range = converter_.info().roughness;
     if (parameter == Parameter::kSpecular) range.max = converter_.info().specular.max;
+    if (is_input(parameter)) range.max = static_cast<double>(kLargest);
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
       clamp(scratch.source.own_row(parameter, c), range);
   }

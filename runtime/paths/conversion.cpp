@@ -5,6 +5,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "remap/error.hpp"
+#include "stages/workflow_stages.hpp"
 
 namespace remap {
 namespace {
@@ -79,6 +80,52 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
+// Returns the surface that a name means. The words `openpbr` and `standard-surface` mean metallic workflows
+// elsewhere.
+std::optional<Surface> surface_of(const ModelName& model) {
+  constexpr NamedValues<Surface, 4> kWords = {{{Surface::kOpenPbr, "openpbr"},
+                                               {Surface::kOpenPbr, "open-pbr-surface"},
+                                               {Surface::kStandardSurface, "standard-surface"},
+                                               {Surface::kStandardSurface, "arnold"}}};
+  constexpr NamedValues<Surface, 4> kModels = {
+      {{Surface::kGltf, "gltf"},
+       {Surface::kUsdPreview, "usd-preview-surface"},
+       {Surface::kUsdPreviewSpecular, "usd-preview-surface-specular"},
+       {Surface::kPrincipled, "cycles-5/principled"}}};
+  const auto by_word = value_named(kWords, model.word());
+  return by_word ? by_word : value_named(kModels, model.name);
+}
+
+bool is_hub(Surface surface) { return surface == Surface::kOpenPbr || surface == Surface::kStandardSurface; }
+
+// Sets the translation if the request asks for one.
+void choose_translation(const ConversionRequest& request, ConversionChoice& choice) {
+  const auto source = surface_of(request.source), target = surface_of(request.target);
+  if (!request.translates_surfaces || request.uses_fit_file || !source || !target || *source == *target ||
+      (!is_hub(*source) && !is_hub(*target)))
+    return;
+  const auto name = [](WorkflowEnd& end, Surface surface) {
+    if (is_hub(surface))
+      std::get<MetallicWorkflow>(end).model = surface == Surface::kOpenPbr ? "openpbr" : "standard-surface";
+  };
+  const auto refuse = [&](const std::string& word) {
+    throw usage_error(word + ": has no effect between " + std::string(request.source.word()) + " and " +
+                      std::string(request.target.word()) +
+                      ", whose inputs are translated (remove this option)");
+  };
+  if (*target == Surface::kPrincipled)
+    throw usage_error(request.words.target + " " + std::string(request.target.word()) +
+                      ": no translation leads to the Principled BSDF (use --to gltf, which Blender imports)");
+  if (request.dielectric_f0) refuse(request.words.dielectric_f0);
+  if (request.diffuse_convention) refuse(request.words.diffuse_convention);
+  if (!request.via.empty()) refuse("--via");
+  name(*choice.source, *source);
+  name(*choice.target, *target);
+  choice.translation = SurfaceTranslation{*source, *target};
+  choice.notes.clear();  // aliases mean surfaces here
+  choice.changes_nothing = false;
+}
+
 // Sets the diffuse convention of each end whose model leaves it open. A requested convention comes first.
 // Otherwise the end gets the convention of the other end, so that a round trip changes nothing. If both
 // models are fixed, a request overrides the source's convention.
@@ -132,10 +179,12 @@ ModelName model_named(const std::string& word) {
 }
 
 std::vector<Parameter> ConversionChoice::sources() const {
+  if (translation) return parameters_of(translation->source);
   return is_material() ? parameters_of(*source) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
 }
 
 std::vector<Parameter> ConversionChoice::targets() const {
+  if (translation) return parameters_of(translation->target);
   return is_material() ? parameters_of(*target) : std::vector{Parameter::kRoughness, Parameter::kSpecular};
 }
 
@@ -168,6 +217,8 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
   choice.target_brdf = target_end.brdf;
   choice.source = source_end.end;
   choice.target = target_end.end;
+  choose_translation(request, choice);
+  if (choice.translation) return choice;
   choose_diffuse(request, source_end, target_end, choice);
   choose_f0(request, choice);
   choice.prior = request.prior;
@@ -213,6 +264,11 @@ BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr
 BuiltConversion build_conversion(const ConversionChoice& choice, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set) {
   BuiltConversion conversion;
+  if (choice.translation) {
+    conversion.material =
+        make_translation_converter(*choice.translation, ends_of(stages_of(choice, nullptr), set));
+    return conversion;
+  }
   if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !via.empty()) {
     conversion.path = graph.find_paths({choice.source_brdf, choice.target_brdf, via}).front();
     conversion.closer =

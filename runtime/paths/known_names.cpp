@@ -29,10 +29,12 @@ constexpr std::array<KnownName, 18> kPrograms = {{
     {"Unreal Engine", "unreal"},
 }};
 
-constexpr std::array<KnownName, 5> kFormats = {{
+constexpr std::array<KnownName, 7> kFormats = {{
     {"glTF", "gltf"},
     {"glTF, specular-glossiness", "gltf-specgloss"},
+    {"MaterialX standard_surface", "standard-surface"},
     {"OBJ and MTL", "mtl"},
+    {"OpenPBR", "openpbr"},
     {"USD", "usd"},
     {"USD, specular workflow", "usd-specular"},
 }};

@@ -24,7 +24,7 @@
 //   basecolor, whereas `baseColor` does not match base_color. The longest matching word wins; of two habits
 //   with the same word, that of the file wins.
 // - `role` says what the whole map holds, `channels` what R, G, B, A or RGB hold. A rule has one of the two.
-//   The roles are listed below.
+//   The roles are listed below; inputs of surface models, such as coat_roughness, are roles as well.
 // - `ordinary` (default false): the words also occur in names of objects (robot_arm). They count only if
 //   another map has the same stem, if a resolution is next to them, or if they are written in capitals here
 //   and in the name.
@@ -48,6 +48,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "remap/converter.hpp"
 #include "remap/model.hpp"
 
 namespace remap {
@@ -117,6 +118,7 @@ inline constexpr NamedValues<Channels, 6> kChannels = {{{Channels::kWhole, "all"
 struct ChannelMeaning {
   Channels channels = Channels::kWhole;
   Role role = Role::kOther;
+  std::optional<Parameter> input = {};  // of a surface model, such as coat_weight; the role is then kOther
 
   auto operator<=>(const ChannelMeaning&) const = default;
 };

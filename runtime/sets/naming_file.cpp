@@ -5,6 +5,7 @@
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/nearest_name.hpp"
+#include "remap/surface.hpp"
 #include "sets/naming.hpp"
 
 namespace remap {
@@ -30,7 +31,11 @@ Value read_named(const Field& field, const NamedValues<Value, Count>& table, con
   field.fail("unknown " + noun + " '" + text + "'" + suggestion(text, names_of(table)));
 }
 
-Role read_role(const Field& field) { return read_named(field, kRoles, "role"); }
+ChannelMeaning read_meaning(Channels channels, const Field& field) {
+  const auto input = parameter_named(field.text());
+  if (input && is_input(*input) && !value_named(kRoles, field.text())) return {channels, Role::kOther, input};
+  return {channels, read_named(field, kRoles, "role")};
+}
 
 // Refuses a rule that names roughness or specular twice, because a converter reads each from one map.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
@@ -53,7 +58,7 @@ std::vector<ChannelMeaning> read_channels(const Field& field) {
   std::vector<ChannelMeaning> meaning;
   for (const auto& [channels, name] : kChannels)
     if (const std::string key(name); field.contains(key))
-      meaning.push_back({channels, read_role(field[key])});
+      meaning.push_back(read_meaning(channels, field[key]));
   refuse_doubles(field, meaning);
   return meaning;
 }
@@ -73,7 +78,7 @@ NamingRule read_rule(const Field& field) {
   rule.words = field["words"].list(1, read_word);
   rule.ordinary = field.flag("ordinary");
   if (field.contains("role"))
-    rule.meaning = {{Channels::kWhole, read_role(field["role"])}};
+    rule.meaning = {read_meaning(Channels::kWhole, field["role"])};
   else
     rule.meaning = read_channels(field["channels"]);
   return rule;
@@ -114,12 +119,31 @@ NamingTables read_tables(std::string_view text, const std::string& context) {
   return tables;
 }
 
+// Returns a convention for the names of inputs, such as coat_weight, which no other convention knows. Names
+// of one word also occur in names of objects, and are left out.
+Habit surface_habit(const std::vector<Habit>& others) {
+  std::set<std::string> known;
+  for (const Habit& habit : others)
+    for (const NamingRule& rule : habit.rules)
+      for (const std::string& word : rule.words) known.insert(word_key(word));
+  Habit habit{"surface models", true, false, ResolutionPlace::kNone, {}};
+  for (const std::string& name : parameter_names()) {
+    const auto parameter = *parameter_named(name);
+    const bool is_one_word =
+        std::ranges::none_of(name, [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); });
+    if (is_input(parameter) && !is_one_word && known.insert(word_key(name)).second)
+      habit.rules.push_back({{name}, false, {{Channels::kWhole, Role::kOther, parameter}}});
+  }
+  return habit;
+}
+
 }  // namespace
 
 const Naming& built_in_naming() {
   static const Naming naming = [] {
     NamingTables tables = read_tables(kNamingText, "naming.json");
     for (Habit& habit : tables.habits) habit.built_in = true;
+    tables.habits.push_back(surface_habit(tables.habits));
     return Naming(std::move(tables.habits), std::move(tables.ignored_words));
   }();
   return naming;

@@ -46,7 +46,7 @@ constexpr std::string_view kUnrealLit =
     "default lit: base color (1 - metallic), F0 0.04 at a Specular of 0.5";
 constexpr std::string_view kBlinn =
     "(N.H)^n, neither normalised nor times the cosine of the light; roughness is the exponent n";
-constexpr std::array<ModelAlias, 51> kAliases = {{
+constexpr std::array<ModelAlias, 52> kAliases = {{
     {"ambientcg", "metallic", kPlainMetal},
     {"arnold", "gltf", kLayered},
     {"babylon", "gltf", kLayered},
@@ -70,6 +70,7 @@ constexpr std::array<ModelAlias, 51> kAliases = {{
     {"mujoco", "mujoco/material-linear",
      "what its windows show on a display of gamma 2.2; roughness is the exponent, 128 times shininess, and "
      "specular is linear"},
+    {"open-pbr-surface", "gltf", kLayered},
     {"opengl", "legacy/blinn-phong", kBlinn},
     {"openpbr", "gltf", kLayered},
     {"pbr", "metallic", kPlainMetal},

@@ -191,24 +191,6 @@ std::string id_part(std::string model) {
   return model;
 }
 
-ConverterInfo info_of(const WorkflowStages& stages, InstructionSet set) {
-  ConverterInfo info;
-  if (stages.brdf != nullptr) {
-    info = stages.brdf->info();
-    if (info.steps.empty()) info.steps = {info.id};
-  } else {
-    info.source.roughness = info.target.roughness = stages.width;
-    info.roughness = info.specular = {0.0, 1.0};
-    info.instructions = set;
-  }
-  info.id = id_part(model_of(stages.source)) + "_to_" + id_part(model_of(stages.target));
-  info.source.model = model_of(stages.source);
-  info.target.model = model_of(stages.target);
-  info.source.specular = kind_of(stages.source) == WorkflowKind::kSpecular ? "specular" : "base_color";
-  info.target.specular = kind_of(stages.target) == WorkflowKind::kSpecular ? "specular" : "base_color";
-  return info;
-}
-
 bool encodes_alpha(RoughnessEncoding width) {
   return width == RoughnessEncoding::kAlpha || width == RoughnessEncoding::kRoughness ||
          width == RoughnessEncoding::kGlossiness;
@@ -234,6 +216,24 @@ DiffuseConvention diffuse_between(const WorkflowStages& stages) {
 }
 
 }  // namespace
+
+ConverterInfo ends_of(const WorkflowStages& stages, InstructionSet set) {
+  ConverterInfo info;
+  if (stages.brdf != nullptr) {
+    info = stages.brdf->info();
+    if (info.steps.empty()) info.steps = {info.id};
+  } else {
+    info.source.roughness = info.target.roughness = stages.width;
+    info.roughness = info.specular = {0.0, 1.0};
+    info.instructions = set;
+  }
+  info.id = id_part(model_of(stages.source)) + "_to_" + id_part(model_of(stages.target));
+  info.source.model = model_of(stages.source);
+  info.target.model = model_of(stages.target);
+  info.source.specular = kind_of(stages.source) == WorkflowKind::kSpecular ? "specular" : "base_color";
+  info.target.specular = kind_of(stages.target) == WorkflowKind::kSpecular ? "specular" : "base_color";
+  return info;
+}
 
 std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
   if (kind_of(end) == WorkflowKind::kSpecular)
@@ -263,7 +263,7 @@ std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stage
 }
 
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
-  ConverterInfo info = info_of(stages, set);
+  ConverterInfo info = ends_of(stages, set);
   const RoughnessEncoding target_width = info.target.roughness;
   const RoughnessEncoding width = encodes_alpha(target_width) ? target_width : RoughnessEncoding::kAlpha;
   const DiffuseConvention between = diffuse_between(stages);

@@ -18,6 +18,9 @@ std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, Diff
                                             RoughnessEncoding width, InstructionSet set,
                                             const std::string& context);
 
+// Returns the id, models and encodings of a converter between workflows.
+ConverterInfo ends_of(const WorkflowStages& stages, InstructionSet set);
+
 // Works like make_workflow_converter() without BRDF, from a metallic workflow with an F0 for the dielectrics
 // of each texel: kSpecular of the source (KHR_materials_specular). It ignores the F0 of `stages.source`.
 // Diffuse is scaled by 1 - max(F0).

@@ -248,7 +248,21 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
+// Returns true if all files hold values above 1.
+bool holds_floats(const TargetChoice& choice) {
+  const bool is_float_type = choice.type == PixelType::kHalf || choice.type == PixelType::kFloat;
+  return choice.extension == "hdr" ||
+         (is_float_type && (choice.extension == "exr" || choice.extension.starts_with("tif")));
+}
+
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+  const bool is_wide = std::ranges::find(choice.wide, parameter) != choice.wide.end();
+  if (is_wide && !holds_floats(choice)) {
+    TargetChoice floats = choice;
+    floats.extension = "exr";
+    floats.type = PixelType::kHalf;
+    return own_map(set, parameter, floats);
+  }
   if (is_color(parameter)) return color_map(set, parameter, choice);
   return new_map(file_name(parameter, choice, choice.names), kGrey, {ConvertedChannel{parameter}}, set,
                  choice);
@@ -284,7 +298,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   }
   for (const Parameter parameter : choice.parameters) {
     if (set.map_of(parameter) != nullptr) continue;
-    if (set.parameters.count(parameter) == 0)
+    if (set.parameters.count(parameter) == 0 && !is_input(parameter))
       throw Error(ErrorKind::kUsage, "--layout as-inputs: no input holds " +
                                          std::string(parameter_name(parameter)) + " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));

@@ -361,7 +361,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     if (color && opened.is_map()) choose_transfer(set, asked.transfer, opened);
     if (!color && !opened.is_map() && opened.constants.size() != 1)
       throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values (give one)");
-    require_factors(parameter_option(parameter) + "-factor", opened);
+    require_factors("--factor " + plain_name(parameter), opened);
     set.parameters[parameter] = std::move(opened);
   }
   (void)set.first_map();  // throws if no parameter is a map
@@ -387,7 +387,7 @@ void require_scale(const TextureSet& set, RoughnessEncoding width) {
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
     throw input_error(
         set.maps[place.map].path().string() +
-        ": holds whole numbers, and an exponent is wanted (--roughness-factor says which exponent "
+        ": holds whole numbers, and an exponent is wanted (--factor roughness=NUMBER says which exponent "
         "white is: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
   session.write_pair("exr", kInputSize);
   require_success(
-      convert_ward(session, maps("r.exr", "s.exr") + "--roughness-factor 0.5 --specular-factor 1,0.5,0.25"));
+      convert_ward(session, maps("r.exr", "s.exr") + "--factor roughness=0.5 --factor specular=1,0.5,0.25"));
   const TestImage r = session.image("r.exr"), s = session.image("s.exr"), out = session.image("out/s.exr"),
                   width = session.image("out/r.exr");
   for (int x = 0; x < kInputSize; ++x) {

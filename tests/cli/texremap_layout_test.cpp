@@ -270,7 +270,7 @@ TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter
   CHECK(stored("out/metallic.exr", "Y") == stored("in/wood_maps.exr", "metal.Y"));
   CHECK(stored("out/base_color.exr", "G") == stored("in/wood_maps.exr", "base.G"));
 
-  require_success(session.texremap(all + " --base-color-factor 0.5,1,1 --metallic-factor 0.5 -o half"));
+  require_success(session.texremap(all + " --factor base_color=0.5,1,1 --factor metallic=0.5 -o half"));
   const std::vector<float> red = stored("in/wood_maps.exr", "base.R"),
                            halved = stored("half/base_color.exr", "R"),
                            metal = stored("in/wood_maps.exr", "metal.Y"),

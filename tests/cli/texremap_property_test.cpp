@@ -96,8 +96,8 @@ struct Batch {
     add("--format", format);
     add("--type", type);
     add("--roughness-encoding", encoding);
-    if (width_factor != 1.0) add("--roughness-factor", std::to_string(width_factor));
-    if (specular_factor != 1.0) add("--specular-factor", std::to_string(specular_factor));
+    if (width_factor != 1.0) add("--factor", "roughness=" + std::to_string(width_factor));
+    if (specular_factor != 1.0) add("--factor", "specular=" + std::to_string(specular_factor));
     if (output_srgb) add("--output-color-space", *output_srgb ? "srgb" : "linear");
     return all;
   }
@@ -544,7 +544,7 @@ void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
   if (batch.from.kind == Kind::kMetallic)
     words += "--base-color " + numbers(given.base_color) + " --metallic " + number(given.metallic);
   else
-    words += "--specular " + numbers(given.specular) + " --specular-factor " + number(batch.specular_factor);
+    words += "--specular " + numbers(given.specular) + " --factor specular=" + number(batch.specular_factor);
   if (batch.from.kind == Kind::kSpecular) words += "--diffuse " + numbers(given.diffuse);
   const ProcessResult result = require_success(tree.texremap(words));
   const auto values = nlohmann::json::parse(result.output).at("values");

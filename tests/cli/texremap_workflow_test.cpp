@@ -297,8 +297,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   const std::string back =
       "convert --from mtl --to gltf --roughness whole/exponent.png --specular whole/specular.png "
       "--diffuse whole/diffuse.png ";
-  CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--roughness-factor says"));
-  CHECK(session.texremap(back + "--roughness-factor 1000 -o back").exit_code == 0);
+  CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--factor roughness=NUMBER says"));
+  CHECK(session.texremap(back + "--factor roughness=1000 -o back").exit_code == 0);
   CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
              Contains("applies to exponents only"));
 }
@@ -320,7 +320,7 @@ TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a s
       "convert --from opengl --to mitsuba/ggx-plain --roughness ns.png --specular 0.5 -o out";
   CHECK_THAT(session.texremap(command).last_error(),
              Contains("holds whole numbers, and an exponent is wanted"));
-  CHECK(session.texremap(command + " --roughness-factor 128").exit_code == 0);
+  CHECK(session.texremap(command + " --factor roughness=128").exit_code == 0);
 }
 
 TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workflows, from every source") {

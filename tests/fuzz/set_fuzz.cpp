@@ -75,7 +75,7 @@ void read_factors(const std::string& text) {
   remap::TextureSetRequest request;
   remap::ParameterRequest& roughness = request.parameters[remap::Parameter::kRoughness];
   roughness.source = remap::parameter_source("--roughness", other_map());
-  roughness.factors = remap::parse_factors("--roughness-factor", text);
+  roughness.factors = remap::parse_factors("--factor", text);
   read_set(request);
 }
 

@@ -8,6 +8,7 @@
 
 #include "remap/converter.hpp"
 #include "remap/path.hpp"
+#include "remap/surface.hpp"
 #include "remap/warp.hpp"
 #include "remap/workflow.hpp"
 
@@ -44,6 +45,9 @@ struct ConversionRequest {
   double prior = kCleanPrior;           // prior of the projection, towards a metallic of 0 and 1
   // The fit provides the BRDFs, so the graph need not know them.
   bool uses_fit_file = false;
+  // If true and an end is OpenPBR or standard_surface, all inputs of the surfaces are translated. Otherwise
+  // both are metallic workflows like glTF.
+  bool translates_surfaces = false;
   ConversionWords words;
 };
 
@@ -54,6 +58,7 @@ struct ConversionChoice {
   bool is_closest = false;  // target_brdf is the closest model of the renderer that the user chose
   // Both or neither are set. Without them, the conversion covers only roughness and specular.
   std::optional<WorkflowEnd> source, target;
+  std::optional<SurfaceTranslation> translation;  // of whole surfaces, instead of a path between BRDFs
   double prior = kCleanPrior;
   bool changes_nothing = false;          // both ends are one material, so only files and encodings change
   std::vector<std::string> notes;        // explain the user's model names
@@ -64,7 +69,7 @@ struct ConversionChoice {
     return is_material() && kind_of(*target) == WorkflowKind::kMetallic;
   }
   // Returns true if metallic is computed from other values.
-  bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing; }
+  bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing && !translation; }
   // Returns the default meaning of roughness at each end. `info` describes the converter, which may use
   // another convention inside if it converts a material.
   RoughnessEncoding source_width(const ConverterInfo& info) const noexcept {

@@ -54,8 +54,10 @@ enum class Parameter {
   kResidual,             // target only: the part of a texel that metal-rough cannot express
   kMetallicUncertainty,  // target only: the fraction of [0, 1] that metallic could take
   kMetallicIssues,  // target only: the sum of MetallicIssue values, divided by 255, so that 8 bits hold it
+  kFirstInput,      // from here on: other inputs of surface models (surface.hpp)
 };
-inline constexpr std::size_t kParameterCount = 9;
+inline constexpr std::size_t kParameterCount = 96;
+inline constexpr bool is_input(Parameter parameter) noexcept { return parameter >= Parameter::kFirstInput; }
 
 // These powers of two are reasons why a texel's metallic material may differ from the intended one.
 enum class MetallicIssue {
@@ -71,11 +73,11 @@ inline constexpr float kUndeterminedWidth = 0.2f;
 inline constexpr float kDarkTexel = 0.06f;
 
 // Returns `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `residual`,
-// `metallic_uncertainty` or `issues`.
+// `metallic_uncertainty`, `issues`, or a name such as `coat_weight`.
 std::string_view parameter_name(Parameter parameter);
 // Returns the name in files and messages, such as `base_color`. The width is always `roughness`.
 std::string plain_name(Parameter parameter);
-// Returns the option, such as `--base-color`. The width has `--roughness`.
+// Returns the option, such as `--base-color` or `--input coat_weight`. The width has `--roughness`.
 std::string parameter_option(Parameter parameter);
 // Returns true for measures of the result: kResidual, kMetallicUncertainty, kMetallicIssues.
 bool is_measure(Parameter parameter);

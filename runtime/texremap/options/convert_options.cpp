@@ -27,8 +27,41 @@ Reader<MapSource> map_source() {
           {}};
 }
 
-Reader<std::vector<float>> factors() {
-  return {[](const std::string& option, const std::string& word) { return parse_factors(option, word); }, {}};
+// A NamedWord is `NAME=VALUE`.
+struct NamedWord {
+  Parameter parameter;
+  std::string value;
+};
+NamedWord named_word(const std::string& option, const std::string& word) {
+  const std::size_t sign = word.find('=');
+  if (sign == std::string::npos || sign + 1 == word.size())
+    throw usage_error(option + ": no value in '" + word + "' (write NAME=VALUE, such as coat_weight=0.5)");
+  const std::string name = word.substr(0, sign);
+  const auto parameter = parameter_named(name);
+  if (!parameter) {
+    const std::vector<std::string> near = nearest_names(name, parameter_names(), 1);
+    throw usage_error(option + ": unknown input '" + name + "' (" +
+                      (near.empty() ? "use the name of an input, such as coat_weight, sheen_color or ior"
+                                    : "did you mean " + near.front() + "?") +
+                      ")");
+  }
+  return {*parameter, word.substr(sign + 1)};
+}
+
+Reader<InputWord> input_word() {
+  return {[](const std::string& option, const std::string& word) {
+            NamedWord named = named_word(option, word);
+            return InputWord{named.parameter, parameter_source(option, named.value)};
+          },
+          {}};
+}
+
+Reader<FactorWord> factor_word() {
+  return {[](const std::string& option, const std::string& word) {
+            NamedWord named = named_word(option, word);
+            return FactorWord{named.parameter, parse_factors(option, named.value)};
+          },
+          {}};
 }
 
 Reader<int> compression_level() {
@@ -106,11 +139,10 @@ ColorSpaceWord color_space_word(const std::string& option, const std::string& wo
   const Transfer transfer = one_of(kTransfers, "color space").read(option, word.substr(sign + 1));
   if (sign == std::string::npos) return {std::nullopt, transfer};
   const std::string name = word.substr(0, sign);
-  std::vector<std::string> known;
-  for (const Parameter color : {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor}) {
-    known.emplace_back(parameter_name(color));
-    if (known.back() == name) return {color, transfer};
-  }
+  const auto parameter = parameter_named(name);
+  if (parameter && is_color(*parameter)) return {parameter, transfer};
+  std::vector<std::string> known = parameter_names();
+  std::erase_if(known, [](const std::string& other) { return !is_color(*parameter_named(other)); });
   fail_unknown(option, "color", name, known);
 }
 
@@ -242,6 +274,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
       .add_option("--occlusion MAP", options.occlusion, map_source(),
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
+  command
+      .add_option("--input NAME=MAP", options.inputs, input_word(),
+                  "Another input of a whole material, such as coat_weight=coat.png or sheen_color=1,0.9,0.8; "
+                  "repeatable (for --from or --to openpbr and standard-surface)")
+      ->tag(kChangesResults | kNeedsTranslation);
   command
       .add_option("--roughness-encoding NAME", options.roughness_encoding,
                   one_of(kRoughnessEncodings, "encoding"),
@@ -396,17 +433,15 @@ void add_rare_options(Command& command, ConvertOptions& options) {
           "Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, "
           "100 for percent")
       ->tag(kChangesResults);
-  const auto add_factor = [&](const std::string& names, Parameter parameter, const std::string& description) {
-    command.add_option(names, options.factors[parameter], factors(), description)
-        ->tag(kChangesResults | kNotWithDiffuseWarp);
-  };
-  add_factor("--roughness-factor,--glossiness-factor NUMBER", Parameter::kRoughness,
-             "Multiply the roughness or glossiness map before it is decoded");
-  add_factor("--specular-factor NUMBERS", Parameter::kSpecular,
-             "Multiply linear specular by one number, or by three");
-  add_factor("--diffuse-factor NUMBERS", Parameter::kDiffuse, "The same for diffuse");
-  add_factor("--base-color-factor NUMBERS", Parameter::kBaseColor, "The same for base color");
-  add_factor("--metallic-factor NUMBER", Parameter::kMetallic, "Multiply metallic");
+  command
+      .add_option("--factor NAME=NUMBERS", options.factors, factor_word(),
+                  "Multiply this input: roughness or glossiness before it is decoded, colors in linear light "
+                  "by one number or three; repeatable")
+      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  for (const char* name :
+       {"--roughness", "--glossiness", "--specular", "--diffuse", "--base-color", "--metallic"})
+    command.retire(std::string(name) + "-factor",
+                   "is now called --factor (for example: --factor roughness=0.5)");
   command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
       ->tag(kChangesResults | kNeedsFiles);
 
@@ -489,6 +524,12 @@ int ConvertOptions::threads() const {
 void note_given(const Command& command, ConvertOptions& options) {
   options.given = command.given();
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
+  for (const InputWord& input : options.inputs) options.maps[input.parameter] = input.source;
+}
+
+std::vector<float> ConvertOptions::factors_of(Parameter parameter) const {
+  const auto found = std::ranges::find(factors, parameter, &FactorWord::parameter);
+  return found == factors.end() ? std::vector<float>{} : found->factors;
 }
 
 void add_convert_options(Command& command, ConvertOptions& options) {

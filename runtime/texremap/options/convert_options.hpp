@@ -14,6 +14,7 @@
 #include "remap/conversion.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
+#include "remap/surface.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/options/part.hpp"
 #include "texremap/options/used_converters.hpp"
@@ -38,6 +39,7 @@ enum : OptionTags {
   kNeedsTree = 1u << 11u,          // if assets are converted, a folder of them
   kIsPath = 1u << 12u,             // path of a file or folder, relative to the working folder
   kOfPlan = 1u << 13u,             // texremap plan writes it itself
+  kNeedsTranslation = 1u << 14u,   // needs surfaces as both ends
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -46,6 +48,17 @@ using MapSource = std::variant<MapName, ConstantValues>;
 struct ColorSpaceWord {
   std::optional<Parameter> parameter;
   Transfer transfer;
+};
+
+// An InputWord is `NAME=MAP` or `NAME=NUMBERS`.
+struct InputWord {
+  Parameter parameter;
+  MapSource source;
+};
+// A FactorWord is `NAME=NUMBERS`.
+struct FactorWord {
+  Parameter parameter;
+  std::vector<float> factors;
 };
 
 // An F0Choice is the source of the F0 of dielectrics.
@@ -83,7 +96,8 @@ struct ConvertOptions {
   std::optional<MapSource> glossiness;  // also read into `maps` as roughness
   std::optional<MapSource> occlusion;
   std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
-  std::map<Parameter, std::vector<float>> factors;
+  std::vector<InputWord> inputs;                        // also read into `maps`
+  std::vector<FactorWord> factors;
   std::vector<std::string> prefer;  // choice among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
   std::filesystem::path names;
@@ -120,6 +134,7 @@ struct ConvertOptions {
     const auto found = maps.find(parameter);
     return found == maps.end() || !found->second ? nullptr : &*found->second;
   }
+  std::vector<float> factors_of(Parameter parameter) const;
   // Returns true if the roughness map was given as glossiness.
   bool reads_glossiness() const { return glossiness.has_value(); }
 };

@@ -14,6 +14,7 @@ std::string conventions_text(const WorkflowEnd& end) {
 std::string converter_ids(const ChosenConverter& chosen) {
   std::string ids;
   for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
+  if (chosen.workflow.translation) return chosen.info().id;
   if (!chosen.workflow.is_material()) return ids;
   return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" +
          conventions_text(*chosen.workflow.source) + "; " + conventions_text(*chosen.workflow.target) +

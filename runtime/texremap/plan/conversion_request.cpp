@@ -14,7 +14,10 @@
 namespace remap {
 namespace {
 
-constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
+std::vector<Parameter> colors_among(std::vector<Parameter> parameters) {
+  std::erase_if(parameters, [](Parameter parameter) { return !is_color(parameter); });
+  return parameters;
+}
 
 // Returns the color space of each of `colors` that `words` name. Throws kUsage for a word that applies to
 // none of them. `reason` ends the message: "no specular is written".
@@ -41,21 +44,14 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
 // Returns the colors that may be read from maps. With a folder these are all colors of the source.
 std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
                                                 const WorkflowChoice& workflow) {
-  std::vector<Parameter> colors;
-  for (const Parameter color : kColors) {
+  std::vector<Parameter> colors = colors_among(workflow.sources());
+  std::erase_if(colors, [&](Parameter color) {
     const MapSource* source = options.map_of(color);
     const bool is_map = source != nullptr && std::holds_alternative<MapName>(*source);
-    if (workflow.has_source(color) && (is_map || !options.folder.empty())) colors.push_back(color);
-  }
+    return !is_map && options.folder.empty();
+  });
   return color_spaces("--color-space", options.color_spaces, colors,
                       "is read from a map (for results: --output-color-space)");
-}
-
-std::vector<Parameter> written_colors(const std::vector<Parameter>& written) {
-  std::vector<Parameter> colors;
-  for (const Parameter parameter : written)
-    if (is_color(parameter)) colors.push_back(parameter);
-  return colors;
 }
 
 // Throws for the first source parameter without an option.
@@ -90,9 +86,14 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
     if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)
       refuse_map(parameter_option(parameter), is_result);
   }
-  for (const auto& [parameter, factors] : options.factors)
-    if (!workflow.has_source(parameter) && !factors.empty())
-      refuse_map(parameter_option(parameter) + "-factor", false);
+  const auto refuse_input = [&](const std::string& option, Parameter parameter) {
+    if (!workflow.has_source(parameter))
+      throw usage_error(
+          option + " " + plain_name(parameter) +
+          ": has no effect, because the source material has no such input (remove this option)");
+  };
+  for (const FactorWord& word : options.factors) refuse_input("--factor", word.parameter);
+  for (const InputWord& word : options.inputs) refuse_input("--input", word.parameter);
 }
 
 // Refuses options for a folder if there is one set, and maps that cannot be used with a folder.
@@ -105,7 +106,7 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
                                          " cannot be used with a folder, because texremap copies the maps of "
                                          "the folder (remove this option)");
   require_read(options, workflow);
-  if (!is_tree) require_parameters(options, workflow);
+  if (!is_tree && !workflow.translation) require_parameters(options, workflow);
 }
 
 // Keeps only numbers, because in a folder each set finds its own file.
@@ -121,6 +122,13 @@ std::string one_channel(const std::string& option, const std::filesystem::path& 
 }
 
 namespace {
+
+// Returns the value that a surface has for an input without a map.
+ConstantValues default_of(const SurfaceTranslation& translation, Parameter parameter) {
+  const auto inputs = inputs_of(translation.source);
+  const auto found = std::ranges::find(inputs, std::optional(parameter), &SurfaceInput::parameter);
+  return {found->value.begin(), found->value.begin() + static_cast<std::ptrdiff_t>(found->channels)};
+}
 
 // Returns the encoding of the roughness maps. `--roughness` never means glossiness.
 std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
@@ -143,6 +151,7 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
   for (const Parameter parameter : parameters) {
     const bool is_width = parameter == Parameter::kRoughness;
     ParameterRequest asked;
+    if (workflow.translation) asked.source = default_of(*workflow.translation, parameter);
     if (const MapSource* source = options.map_of(parameter)) asked.source = *source;
     if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())
       asked.source = constant->second;
@@ -150,8 +159,7 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
     if (const auto* map = std::get_if<MapName>(&asked.source))
       asked.one_channel = one_channel(
           is_width && options.reads_glossiness() ? "--glossiness" : parameter_option(parameter), map->file);
-    if (const auto found = options.factors.find(parameter); found != options.factors.end())
-      asked.factors = found->second;
+    asked.factors = options.factors_of(parameter);
     if (const auto found = transfers.find(parameter); found != transfers.end())
       asked.transfer = found->second;
     request.parameters[parameter] = std::move(asked);
@@ -283,6 +291,28 @@ std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options) {
   return shared;
 }
 
+std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request) {
+  if (!workflow.translation) return std::nullopt;
+  GivenInputs given;
+  for (const auto& [parameter, asked] : request.parameters) {
+    auto& values = given[parameter];
+    if (const auto* constants = std::get_if<ConstantValues>(&asked.source)) values = *constants;
+    if (values && !asked.factors.empty())
+      for (std::size_t c = 0; c < values->size(); ++c)
+        (*values)[c] *= asked.factors[asked.factors.size() == 1 ? 0 : c];
+  }
+  return effect_of(*workflow.translation, given);
+}
+
+void apply(const TranslationEffect& effect, TargetChoice& choice) {
+  std::erase_if(choice.parameters, [&](Parameter parameter) {
+    return std::ranges::find(effect.written, parameter) == effect.written.end() &&
+           choice.layout.file_with(parameter) == nullptr;
+  });
+  if (choice.keeps_values) choice.unchanged = effect.unchanged;
+  choice.wide = effect.wide;
+}
+
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
   TargetChoice choice;
   choice.folder = options.output;
@@ -305,10 +335,10 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (options.only) choice.parameters = {*options.only};
-  if (workflow.changes_nothing && options.bad_texels == BadTexels::kKeep)
-    choice.unchanged = choice.parameters;
+  choice.keeps_values = options.bad_texels == BadTexels::kKeep;
+  if (workflow.changes_nothing && choice.keeps_values) choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
-                                        written_colors(choice.parameters), "is written");
+                                        colors_among(choice.parameters), "is written");
   require_encoding(options, choice);
   return choice;
 }

@@ -34,6 +34,10 @@ std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
 // Returns the shared maps of all options.
 std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
+// Returns what a translation makes of a set, or nothing for other conversions.
+std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request);
+// Sets the parameters that a set's translation writes, and those that it keeps.
+void apply(const TranslationEffect& effect, TargetChoice& choice);
 // A WidthSource is the roughness of a set before the conversion.
 struct WidthSource {
   std::filesystem::path file;                   // empty for a number

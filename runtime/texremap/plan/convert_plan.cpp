@@ -127,9 +127,13 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
   };
   const RoughnessEncoding width = request.convention.value_or(info.source.roughness);
   for (const auto& [parameter, asked] : request.parameters) {
+    const auto* numbers = std::get_if<ConstantValues>(&asked.source);
+    if (numbers != nullptr && numbers->size() > 1 && !is_color(parameter))
+      throw usage_error(parameter_option(parameter) + ": has three values (give one)");
     const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessEncoding::kExponent;
+    const bool has_other_unit = is_input(parameter);  // an index of refraction, a length
     const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
-    if (!is_exponent && !is_wide)
+    if (!is_exponent && !is_wide && !has_other_unit)
       require(parameter == Parameter::kRoughness && width == RoughnessEncoding::kGlossiness
                   ? "--glossiness"
                   : parameter_option(parameter),

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "remap/surface.hpp"
 #include "texremap/plan/manifest.hpp"
 #include "texremap/plan/written_names.hpp"
 #include "texture/target_plan.hpp"
@@ -25,6 +27,7 @@ struct SetWork {
   std::vector<CopiedFile> copies;
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   std::vector<std::string> notes;                  // which map was chosen out of several
+  std::optional<TranslationEffect> effect = {};    // of a translation of surfaces
 };
 
 // An AssetWork is an asset and its result. Files that it names are read below `input_root` and written to the

@@ -62,7 +62,9 @@ std::optional<KeptUse> kept_of(const FoundSet& set, std::vector<MapUse> found,
 
 void drop(FoundSet& set, const MapUse& use) {
   FoundMap& map = set.maps[use.map];
-  std::erase(map.meaning, ChannelMeaning{use.channels, use.role});
+  std::erase_if(map.meaning, [&](const ChannelMeaning& entry) {
+    return entry.channels == use.channels && entry.role == use.role;
+  });
   map.is_repeated = true;
   map.is_converted = std::ranges::any_of(map.meaning, [](const ChannelMeaning& entry) {
     return is_roughness(entry.role) || entry.role == Role::kSpecular;
@@ -85,6 +87,18 @@ std::string model_of_set(const FoundSet& set) {
 
 }  // namespace
 
+namespace {
+
+std::vector<MapUse> uses_of_input(const FoundSet& set, Parameter parameter) {
+  std::vector<MapUse> found;
+  for (std::size_t i = 0; i < set.maps.size(); ++i)
+    for (const ChannelMeaning& entry : set.maps[i].meaning)
+      if (entry.input == parameter) found.push_back({i, entry.channels, entry.role});
+  return found;
+}
+
+}  // namespace
+
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
   const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
     return best.empty() ? other : best;
@@ -101,7 +115,7 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
     case Parameter::kMetallic:
       return uses(set, is<Role::kMetallic>);
     default:
-      return {};
+      return uses_of_input(set, parameter);
   }
 }
 

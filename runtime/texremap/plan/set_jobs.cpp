@@ -37,9 +37,13 @@ std::vector<fs::path> files_of(const FoundMap& map) {
 
 std::vector<int> tiles_of(const FoundSet& set) {
   std::set<int> numbers;
-  for (const FoundMap& map : set.maps)
-    if (map.is_converted)
-      for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+  const auto add = [&](bool all) {
+    for (const FoundMap& map : set.maps)
+      if (map.is_converted || all)
+        for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+  };
+  add(false);
+  if (numbers.empty()) add(true);
   if (numbers.empty()) return {0};
   return {numbers.begin(), numbers.end()};
 }
@@ -286,6 +290,7 @@ void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::str
                notes};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, work)) return;
+  work.effect = effect_of(workflow_, work.request);
   if (!choice_.layout.keeps_names) carry(set, tile, work.request);
   place_others(set, tile, work);
   Job job{(root_ / set.folder / set.name).string(), number, owner(set)};
@@ -392,7 +397,14 @@ std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
       (choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension);
   const ResultNames names{set.name, end};
   std::map<fs::path, fs::path> sources;
-  for (const Parameter parameter : choice_.parameters) {
+  TargetChoice choice = choice_;
+  if (workflow_.translation) {
+    TextureSetRequest request = defaults_;
+    for (auto& [parameter, asked] : request.parameters)
+      if (given_map(parameter) != nullptr || !uses_of(set, parameter).empty()) asked.source = MapName{};
+    apply(*effect_of(workflow_, request), choice);
+  }
+  for (const Parameter parameter : choice.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
     fs::path path = set.folder / file_name(parameter, choice_, names);
@@ -520,6 +532,7 @@ JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                  const TextureSetRequest& request, std::optional<Discovery> sets) {
   if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
   SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};
+  set.effect = effect_of(workflow, request);
   if (const std::vector<TiledFile> tiled = tiled_files(set); !tiled.empty()) return tile_jobs(set, tiled);
   JobList list;
   list.jobs.push_back({""});

@@ -27,6 +27,12 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
     refuse(options, kNeedsWorkflow | kNeedsMetallic,
            " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
            "--workflows)");
+  if (!choice.translation)
+    refuse(options, kNeedsTranslation,
+           ": needs a whole material as both ends (use --to openpbr, or another model of docs/materials.md)");
+  if (choice.translation)
+    refuse(options, kNeedsMetallic,
+           ": has no effect, because every input is translated (remove this option)");
   if (choice.changes_nothing)
     refuse(options, kNeedsMetallic,
            ": has no effect, because both ends are one material (remove this option)");
@@ -47,6 +53,7 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   request.diffuse_convention = options.diffuse_convention;
   request.prior = options.prior;
   request.uses_fit_file = !options.fit.empty();
+  request.translates_surfaces = true;
   request.words = option_words();
   if (f0 != nullptr) request.dielectric_f0 = *f0;
   WorkflowChoice choice{choose_conversion(request, options.converters.graph()), {}};

@@ -58,6 +58,7 @@ Json converter_json(const ChosenConverter& chosen) {
                {"target", info.target.model},
                {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
   json["notes"] = chosen.workflow.notes;
+  if (chosen.workflow.translation) return json;
   json.update(pictures_json(chosen.path, chosen.closer));
   if (!chosen.workflow.is_material()) return json;
   json["workflow"] = {{"source", end_json(*chosen.workflow.source)},
@@ -98,12 +99,20 @@ Json counts_json(const MapStatistics& counts) {
           {"clipped_values", counts.clipped_count}};
 }
 
+Json effect_json(const TranslationEffect& effect) {
+  Json values = Json::object();
+  for (const SurfaceValue& value : effect.values)
+    values[value.name] = value.values.size() == 1 ? Json(value.values.front()) : Json(value.values);
+  return {{"constants", values}, {"lost", effect.lost}};
+}
+
 // Returns the members that only texture sets have.
 Json set_json(const ConvertPlan& plan, const JobReport& report) {
   const ChosenConverter& chosen = plan.sets()->chosen;
   const MapStatistics& counts = report.statistics;
   Json json = {{"tiles", report.tiles}}, values;
-  std::vector<Parameter> named = chosen.converter().targets();
+  std::vector<Parameter> named = report.effect ? report.effect->written : chosen.converter().targets();
+  if (report.effect) json.update(effect_json(*report.effect));
   for (const Parameter parameter : named) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["left_behind"] = paths_json(report.left_behind);
@@ -119,7 +128,8 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
-    if (std::find(named.begin(), named.end(), parameter) == named.end()) named.push_back(parameter);
+    if (!report.effect && std::find(named.begin(), named.end(), parameter) == named.end())
+      named.push_back(parameter);
   const auto of = [&](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);
     return found == all.end() ? Json() : values_json(found->second, plan.histograms);
@@ -129,7 +139,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
       values[plain_name(parameter)] = {{"source", of(counts.sources, parameter)},
                                        {"target", of(counts.targets, parameter)}};
   json["values"] = values;
-  if (chosen.workflow.is_material()) {
+  if (chosen.workflow.is_material() && !report.effect) {
     json["masked"] = counts.masked_count;
     json["above_one"] = counts.above_one_count;
     json["metallic_confidence"] = metallic_json(counts.metallic);

@@ -18,6 +18,7 @@ namespace {
 // Returns both ends of a workflow conversion, and the steps between them.
 std::string material_text(const ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
+  if (workflow.translation) return chosen.info().source.model + " to " + chosen.info().target.model;
   const auto end_text = [](const WorkflowEnd& end) {
     return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
   };
@@ -99,8 +100,28 @@ void print_confidence(const std::string& context, const ChosenConverter& chosen,
                     share(metallic.ambiguous.count) + "; clamped: " + share(metallic.clamped.count));
 }
 
+std::string value_text(const SurfaceValue& value) {
+  std::string text = value.name + " ";
+  const bool is_grey = std::ranges::all_of(value.values, [&](float c) { return c == value.values.front(); });
+  for (std::size_t c = 0; c < (is_grey ? 1 : value.values.size()); ++c)
+    text += (c == 0 ? "" : ",") + number_text(rounded(static_cast<double>(value.values[c]), 4));
+  return text;
+}
+
+// Prints the inputs that the shader needs beside the maps, and those that it cannot show.
+void print_effect(const ConvertPlan& plan, const std::string& context, const TranslationEffect& effect) {
+  const std::string& target = plan.sets()->chosen.info().target.model;
+  std::vector<std::string> values;
+  for (const SurfaceValue& value : effect.values) values.push_back(value_text(value));
+  if (!values.empty())
+    print_message(kProgram, context + "set these inputs of " + target + ": " + joined(values, ", "));
+  if (!effect.lost.empty())
+    print_message(kProgram, context + "no effect in " + target + ": " + joined(effect.lost, ", "));
+}
+
 void print_set(const ConvertPlan& plan, const std::string& context, const JobReport& report) {
   const ChosenConverter& chosen = plan.sets()->chosen;
+  if (report.effect) print_effect(plan, context, *report.effect);
   if (plan.dry_run) {
     print_message(kProgram, context + "would write " + files_text(report) + " from " +
                                 counted(report.inputs.size(), "file") +

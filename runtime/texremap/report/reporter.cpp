@@ -7,6 +7,7 @@
 
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 #include "core/report_text.hpp"
 #include "remap/conversion.hpp"
 #include "sets/folder_walk.hpp"
@@ -169,9 +170,27 @@ void Reporter::finish(std::vector<JobReport> reports) {
   require_success(outcome);
 }
 
+namespace {
+
+// Prints the inputs of the target that differ from their defaults.
+void print_translated_numbers(const ConvertPlan& plan, const TranslationEffect& effect) {
+  std::vector<ConvertedNumbers> values;
+  for (const SurfaceValue& value : effect.values)
+    values.push_back({value.name, value.values, value.values.size() == 1});
+  const std::string& target = plan.sets()->chosen.info().target.model;
+  if (!plan.quiet && !effect.lost.empty())
+    say("warning: no effect in " + target + ": " + joined(effect.lost, ", "));
+  if (!plan.quiet && values.empty()) say("note: all inputs of " + target + " have their defaults");
+  print_numbers(plan, values, true);
+}
+
+}  // namespace
+
 void print_converted_numbers(const ConvertPlan& plan) {
   print_messages(plan);
   const SetPlan& sets = *plan.sets();
+  if (const auto effect = effect_of(sets.chosen.workflow, sets.request))
+    return print_translated_numbers(plan, *effect);
   const ChosenConverter& chosen = sets.chosen;
   const ConverterInfo& info = chosen.info();
   MapConversion maps;

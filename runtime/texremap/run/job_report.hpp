@@ -53,6 +53,7 @@ struct JobReport {
   Transfer specular_transfer = Transfer::kLinear;
   ColorNotes colors;                         // for integers, and if a file or the user states it
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
+  std::optional<TranslationEffect> effect;   // only of a translation of surfaces
   std::vector<PlannedRole> plan;             // plan of a dry run; for tiles, the first tile's
   bool has_8_bits = false, has_compression_level = false;  // a result does
   MapStatistics statistics;
@@ -89,6 +90,14 @@ void fields(Archive& archive, PlannedRole& role) {
   archive(role.role, role.input, role.encoding, role.happens, role.output);
 }
 template <typename Archive>
+void fields(Archive& archive, SurfaceValue& value) {
+  archive(value.name, value.values);
+}
+template <typename Archive>
+void fields(Archive& archive, TranslationEffect& effect) {
+  archive(effect.written, effect.unchanged, effect.wide, effect.values, effect.lost);
+}
+template <typename Archive>
 void fields(Archive& archive, MaterialFactor& factor) {
   archive(factor.name, factor.values);
 }
@@ -102,7 +111,7 @@ void fields(Archive& archive, JobReport& report) {
   archive(report.name, report.tiles, report.inputs, report.results, report.copies, report.warnings,
           report.failure, report.failure_code, report.was_done, report.seconds, report.bytes_read,
           report.bytes_written, report.left_behind, report.specular_transfer, report.colors,
-          report.estimated_f0, report.plan, report.has_8_bits, report.has_compression_level,
+          report.estimated_f0, report.effect, report.plan, report.has_8_bits, report.has_compression_level,
           report.statistics, report.materials);
 }
 

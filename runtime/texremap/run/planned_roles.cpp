@@ -62,9 +62,13 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
     const RoughnessEncoding own = set.convention.value_or(own_width);
     return own == width ? happens : happens + " to " + std::string(encoding_name(width));
   };
+  const auto is_planned = [&](Parameter parameter) {
+    return std::ranges::find(choice.parameters, parameter) != choice.parameters.end();
+  };
   for (const auto& [parameter, values] : set.parameters) {
+    if (is_input(parameter) && !values.is_map() && !is_planned(parameter)) continue;  // usually a default
     const bool is_kept = std::ranges::find(choice.unchanged, parameter) != choice.unchanged.end();
-    const bool is_target = std::ranges::find(choice.parameters, parameter) != choice.parameters.end();
+    const bool is_target = is_planned(parameter);
     const bool is_width = parameter == Parameter::kRoughness;
     PlannedRole role{plain_name(parameter), input_of(set, values), "",
                      is_kept     ? "kept"

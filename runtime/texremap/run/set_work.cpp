@@ -294,6 +294,13 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   choice.names = work.names;
   choice.metadata = metadata_of(chosen_);
   choice.copies = work.copies;
+  if (work.effect) {
+    report.effect = work.effect;
+    apply(*work.effect, choice);
+    if (work.effect->written.empty())
+      throw usage_error(report.inputs.front().string() + ": no input of " + chosen_.info().target.model +
+                        " depends on the maps (nothing to write; numbers alone are printed)");
+  }
   const RoughnessEncoding width =
       written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;

@@ -112,15 +112,15 @@ TEST_CASE("texture set: the last colon separates a file from its channels") {
 }
 
 TEST_CASE("texture set: factors are one or three numbers from 0") {
-  CHECK(parse_factors("--specular-factor", "0.5") == std::vector<float>{0.5f});
-  CHECK(parse_factors("--specular-factor", "1,0.5,0").size() == 3);
+  CHECK(parse_factors("--factor", "0.5") == std::vector<float>{0.5f});
+  CHECK(parse_factors("--factor", "1,0.5,0").size() == 3);
   for (const char* bad : {"x", "-1", "1,2", "inf", ""})
-    CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: invalid value "));
+    CHECK_THROWS_WITH(parse_factors("--factor", bad), Contains("--factor: invalid value "));
   const Files files;
   TextureSetRequest request;
   request.parameters[Parameter::kRoughness].source = MapName{files.image("r.exr", {"Y"}), {}};
   request.parameters[Parameter::kSpecular] = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
-  CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values (give one"));
+  CHECK_THROWS_WITH(open_texture_set(request), Contains("--factor specular: has 3 values (give one"));
 }
 
 TEST_CASE("texture set: the roughness is the only channel, Y, or equal colors") {
