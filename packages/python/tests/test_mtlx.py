@@ -223,6 +223,12 @@ def test_textures_stay_where_gltf_can_say_it(tmp_path, maps):
     assert sorted(os.listdir(tmp_path)) == ["color.png", "grey.png", "in.mtlx", "normal.png", "orm.png", "out.gltf"]
     mtlx.convert(source, tmp_path / "out.glb", to="gltf")
     assert (image_of(tmp_path / "out.glb", {"index": 1}, tmp_path) == maps["orm"]).all()
+    # What lies outside of the folder of the result is copied into it.
+    mtlx.convert(source, tmp_path / "sub" / "out.gltf", to="gltf")
+    require_valid_gltf(tmp_path / "sub" / "out.gltf")
+    assert sorted(os.listdir(tmp_path / "sub" / "out_textures")) == ["color.png", "normal.png", "orm.png"]
+    [report] = mtlx.convert(tmp_path / "sub" / "out.gltf", tmp_path / "sub" / "back.mtlx", to="openpbr")
+    assert report.state == "converted" and report.textures == ()
 
 
 def test_other_textures_are_packed(tmp_path, maps):

@@ -104,7 +104,11 @@ class GltfWriter:
             self.json.setdefault("bufferViews", []).append({"buffer": 0, "byteOffset": begin, "byteLength": len(data)})
             return {"bufferView": len(self.json["bufferViews"]) - 1, "mimeType": kind, **({"name": name} if name else {})}
         if data is None and not self._is_extracted(path):
-            return {"uri": quote(os.path.relpath(path, self._parent).replace(os.sep, "/"))}
+            relative = os.path.relpath(os.path.realpath(os.path.dirname(path)), os.path.realpath(self._parent))
+            # Many programs do not read files outside of the folder of a document, so that these are copied.
+            if relative.split(os.sep)[0] != "..":
+                file = os.path.normpath(os.path.join(relative, os.path.basename(path)))
+                return {"uri": quote(file.replace(os.sep, "/"))}
         stem, ending = os.path.splitext(name + ".png" if data is not None else os.path.basename(path))
         taken, file, number = {os.path.basename(known).lower() for known in self._files}, stem + ending, 1
         while file.lower() in taken:
