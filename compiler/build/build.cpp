@@ -245,7 +245,7 @@ class Builder {
     options.source = item.metallic;
     options.target = item.specular;
     options.source_roles.fixed = item.fixed;
-    options.objective = recorded_objective("natural");  // a manifest names none for samples
+    options.objective = recorded_objective("natural");  // A manifest cannot choose the objective of samples.
     options.resolution = item.resolution;
     options.count = item.count;
     options.seed = seed;

@@ -31,7 +31,7 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// These are the kinds of fits, after the choice by pictures.
+// `auto`, which lets pictures choose, comes before the names of the kinds.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};

@@ -6,7 +6,7 @@
 namespace remap {
 
 struct ConventionText {
-  const char* meaning;  // for a comment
+  const char* meaning;  // words for a comment in the header
   const char* formula;  // formula of alpha for people; empty if the parameter is alpha
 };
 

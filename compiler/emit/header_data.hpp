@@ -44,7 +44,7 @@ struct HeaderData {
 
 // Describes a fit. Throws kNumeric for a fit without a converter.
 HeaderData describe(const Fit& fit);
-// Describe other fits. Throw kInput if require_valid() does.
+// Describe fits of whole materials. Both functions throw kInput if require_valid() does.
 HeaderData describe(const WorkflowFit& fit);
 HeaderData describe(const WarpMapFit& fit);
 
@@ -56,8 +56,8 @@ const ConverterData& require_converter(const Fit& fit);
 
 // The following are parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-// Returns the network with its scalings in the weights. The first layer reads raw inputs, after the poles of
-// their scalings, and the last gives raw outputs.
+// Returns the network with its scalings folded into the weights. The first layer reads raw inputs (after the
+// poles of their scalings), and the last layer gives raw outputs.
 Network folded(const Network& network);
 
 }  // namespace remap

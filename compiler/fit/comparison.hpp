@@ -21,7 +21,7 @@ struct Comparison {
 
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
 // without its mapping. If `pictures` is not null and knows the pair, pictures then refine the forms.
-// Otherwise only rows count.
+// Otherwise only rows are used.
 //
 // Of the sound candidates, it chooses the one with the fewest numbers whose judged errors are close to the
 // best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit

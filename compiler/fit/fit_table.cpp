@@ -87,7 +87,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   fit.limits = table.limits;
-  // An inverse must lead back to the source, so similar pictures do not matter.
+  // An inverse must give back the source's parameters, so it is not enough that pictures look alike.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr

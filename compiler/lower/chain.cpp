@@ -16,8 +16,8 @@ namespace remap {
 namespace {
 
 constexpr int kAlphas = 401, kSpeculars = 64;  // sizes of the grid on which the domain is found
-constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
-constexpr double kSameEdge = 1e-9;             // relative tolerance for the edge of a domain
+constexpr int kCoarse = 25;         // numbers of alphas and speculars at which errors are propagated
+constexpr double kSameEdge = 1e-9;  // relative tolerance for the edge of a domain
 // A form is close enough to its steps within these distances, which pictures do not show.
 constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 
@@ -123,7 +123,7 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
 }
 
 // A CarriedErrors propagates error figures of all steps to the end of the chain. Squares of rms are summed
-// and averaged over the domain. The other figures are summed, and their maximum over the domain is taken.
+// and averaged over the domain. The other figures are summed, and their maximum over the domain is used.
 struct CarriedErrors {
   double square = 0.0;
   ErrorFigures figures;

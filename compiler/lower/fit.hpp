@@ -73,7 +73,8 @@ struct CandidateRecord {
   std::string name;              // kind, and its shape
   std::size_t number_count = 0;  // number of coefficients: the complexity
   ErrorFigures alpha, specular;  // errors on the held-out rows
-  // These are root mean squares on them relative to the value, or to a fiftieth of 1 if this is more.
+  // These are root mean squares on the held-out rows, relative to the value, or to a fiftieth of 1 if that is
+  // larger.
   double relative_alpha = 0.0, relative_specular = 0.0;
   std::optional<PictureErrors> pictures;  // none if a renderer does not take part
   std::string verdict;                    // `chosen`, or the reason against it

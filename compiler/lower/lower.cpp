@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // of the samples to which a form is fitted
+constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // numbers of samples to which a form is fitted
 constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
 constexpr double kLoosest = 10.0;     // times the tolerances
 constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second

@@ -63,7 +63,8 @@ class FamilyProbe {
     return holds(points, family(points, identity), degree);
   }
 
-  // Returns the fewest of those pictures whose combinations reproduce all others.
+  // Returns a family of as few pictures as possible, taken from the nodes of `degree`, whose combinations
+  // reproduce all others.
   SpecularFamily smallest(std::size_t degree) {
     Matrix gram = gram_matrix(degree);
     std::vector<std::size_t> pivots;

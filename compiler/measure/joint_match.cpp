@@ -86,8 +86,8 @@ double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
 }  // namespace
 
 // A PictureCost reduces the residuals of a whole picture to a few numbers. A trust-region step depends only
-// on J^T J, J^T r and r^T r, and the triangle R of [J r] = Q R gives the same products. So its columns serve
-// as the Jacobian and the residual.
+// on J^T J, J^T r and r^T r. The triangle R of [J r] = Q R gives the same products, so Ceres gets the columns
+// of R as Jacobian and residual.
 class JointMatcher::PictureCost final : public ceres::CostFunction {
  public:
   PictureCost(const JointMatcher& matcher, const RoleValues& guess)

@@ -179,7 +179,8 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
                        const ModelDescription& source, const ModelDescription& target) {
   std::vector<Varied> varied =
-      varied_of(options, source);  // may throw: not within the aggregate (make_setup)
+      // This may throw, so it is computed before the aggregate is made (see make_setup in sweep.cpp).
+      varied_of(options, source);
   Matching matching{options, picture_taker, source, std::move(varied), {}, {}};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));

@@ -25,10 +25,10 @@ struct MaterialSampleOptions : PairOptions {
 };
 
 // Draws materials uniformly from the ranges, rounded to nine digits. It matches each by the joint match, from
-// the source's width and four other guesses; the best counts. With the same seed, a larger count starts with
-// the same rows. Rows hold the parameters' own units; a color has a column for each channel. Light is matched
-// as in run_sweep. The table does not depend on the number of jobs. Throws like run_sweep. After an
-// interruption only the workers' picture cache remains.
+// the source's width and four other guesses, and keeps the best result. With the same seed, a larger count
+// starts with the same rows. Rows hold the parameters' own units. A color has a column for each channel.
+// Light is matched as in run_sweep. The table does not depend on the number of jobs. Throws like run_sweep.
+// After an interruption only the workers' picture cache remains.
 MaterialTable run_material_sample(const Renderer& renderer, const MaterialSampleOptions& options,
                                   const SweepExecution& execution);
 

@@ -29,7 +29,8 @@ struct Objective {
   double floor = 0.1;       // used by kRelative
   double mean_share = 0.0;  // used by kRelative
 
-  // The root of loss over power, times this factor, is relative to the power of the pixels.
+  // Multiplies the root of loss over power. The error is then relative to the power of the pixels, without
+  // means.
   double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
@@ -44,7 +45,8 @@ struct Objective {
 Objective objective_preset(const std::string& name);
 inline const std::vector<std::string> kObjectives = {"natural", "natural-1", "natural-2", "paper"};
 
-// Returns the objective that a file names. In files, `natural` means `natural-1`, once the only one.
+// Returns the objective that a file names. In files, `natural` means `natural-1`, because files that say
+// `natural` were written before `natural-2` existed.
 Objective recorded_objective(const std::string& name);
 
 // A picture is black if no value is above this radiance.

@@ -44,7 +44,8 @@ struct ProbedModel {
   // nothing if every picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
-  // Return the canonical speculars that the model accepts, and those with a linear picture (up to the knee).
+  // Return the range of canonical specular that the model accepts, and the part of it in which pictures are
+  // linear (up to the knee).
   Range specular_range() const;
   Range linear_range() const;
   Range diffuse_range() const;  // 0 to 0 for models without diffuse

@@ -35,7 +35,7 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // Returns one picture for each of `points`; successive points of one width are cheaper. `wanted` selects
+  // Returns one picture for each of `points`. Successive points of one width are cheaper. `wanted` selects
   // the coordinates by which the pictures are differentiated. Thread-safe.
   virtual std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
                                           const std::vector<bool>& wanted) const = 0;
@@ -91,7 +91,7 @@ struct MatchTarget : ProbedModel {
 
 // Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. It makes
 // pictures for non-linear matches if the target has no family, or for matches `with_diffuse`. `searched`
-// holds the widths of the match. `others` is as in RenderedPictures; with some of them there is no bank.
+// holds the widths of the match. `others` is as in RenderedPictures. If it is not empty, there is no bank.
 MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
                          const Range& probed, bool with_diffuse, const std::vector<std::string>& others = {});
 

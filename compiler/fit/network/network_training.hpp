@@ -38,7 +38,7 @@ struct TrainedNetwork {
   double training_rms = 0.0;    // over the training rows, in normalised units
   double validation_rms = 0.0;  // of the best start before its refit to all rows, in normalised units
   std::size_t best_start = 0;
-  std::size_t rows = 0;  // used, including validation rows; may be fewer than given
+  std::size_t rows = 0;  // number of rows used, including validation rows; may be fewer than given
   std::string method;    // one line: layers, optimisers, starts, iterations, rows
 };
 

@@ -306,7 +306,7 @@ void require_samples(std::size_t alpha_count, std::size_t specular_count, const 
 std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
                                              const std::vector<SpecularTerm>* near) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
-  std::set<double> alphas, speculars;  // from rows where specular counts
+  std::set<double> alphas, speculars;  // from rows whose specular is not negligible
   for (const TableRow& row : rows) {
     by_alpha[row.alpha1].push_back(&row);
     if (!(row.specular1 > 0.0)) continue;

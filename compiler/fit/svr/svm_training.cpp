@@ -17,7 +17,7 @@ namespace remap {
 namespace {
 
 constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (Solver::Solve)
-constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; the default of libsvm
+constexpr double kLargestTolerance = 1e-3;    // tolerance of the optimality conditions, the default of libsvm
 constexpr double kToleranceOfEpsilon = 3.0;   // a larger value costs accuracy, a smaller one only time
 
 // This is the number of iterations, parsed from libsvm's messages. libsvm does not report it in another way,

@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
-constexpr std::size_t kFirstFolds = 2;  // after which hopeless candidates are dropped
-constexpr double kHopeless = 1.5;       // error relative to the best on the same folds
-constexpr double kProgress = 0.99;      // a relative error up to this is an improvement
-constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which takes three times as long
+constexpr std::size_t kFirstFolds = 2;  // hopeless candidates are dropped after these
+constexpr double kHopeless = 1.5;   // with a larger error than this times the best, a candidate is hopeless
+constexpr double kProgress = 0.99;  // an error of at most this times the old one is an improvement
+// like kProgress, for a tube a third as wide, which takes three times as long
+constexpr double kWorthTime = 0.9;
 constexpr std::size_t kNeverJudges = kFolds;
 
 // More samples change the choice little, as measured on the published table. The time of a training grows
@@ -237,7 +238,8 @@ std::vector<Point> grid(std::size_t input_count, int epsilon) {
   return points;
 }
 
-// Returns the points one step away along each axis, and along the diagonal on which C compensates gamma.
+// Returns the points one step away along each axis, and along the diagonal on which C and gamma compensate
+// each other.
 std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
   std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
                               {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};
