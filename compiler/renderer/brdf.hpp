@@ -38,7 +38,8 @@ enum class Brdf {
   kAs,
   kBlinn,  // N.H, normalised to (n + 8) / (8 pi), times the cosine (Akenine-Moller et al. 2008, section 7.6)
   kPlainPhong,  // R.V, neither normalised nor times the cosine (Phong 1975)
-  kPlainBlinn,  // N.H, the same (Blinn 1977; OpenGL 1.0, section 2.13; MTL, illum 2)
+  // N.H, neither normalised nor times the cosine (Blinn 1977; OpenGL 1.0, section 2.13; MTL, illum 2)
+  kPlainBlinn,
 };
 enum class Fresnel { kNone, kSchlick };
 

@@ -1,5 +1,5 @@
 // This file is the interface of a renderer: a black box with models, parameters and scenes that returns
-// linear images. The built-in renderer and workers implement it. A sweep uses nothing else of them.
+// linear images. The built-in renderer and workers implement it. A sweep needs nothing else from a renderer.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct ParameterDescription {
 };
 
 struct ModelDescription {
-  std::string name;  // name as `renderer/brdf`
+  std::string name;  // such as `mitsuba3/ggx`
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;

@@ -184,7 +184,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // the first one; models, table and domain are the same for all
+  const Fit& fit_;  // the first fit; models, table and domain are the same for all
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel

@@ -74,7 +74,7 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
       const std::array<double, 2> place = place_of(layer.positions, i);
       for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], place[k]);  // NaN changes neither
+        low[k] = std::min(low[k], place[k]);  // comparisons with NaN change neither
         high[k] = std::max(high[k], place[k]);
       }
     }

@@ -42,8 +42,8 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// Returns the mean square sampling error of the difference of two pictures. The estimate uses the differences
-// that each half of the light directions gives: the error of their mean is half of their difference.
+// Returns the mean square sampling error of the difference of two pictures. Each half of the light directions
+// gives such a difference. The error of their mean is half of what the halves differ by.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {

@@ -1,5 +1,6 @@
-// Commands write plain CSV, which numpy, pandas and spreadsheets read without options. FILE.json beside it
-// records how it was made (decision 052). Files with comments are read as well.
+// This file reads and writes tables. Commands write plain CSV, which numpy, pandas and spreadsheets read
+// without options. FILE.json beside it records how it was made (decision 052). Files with comments are read
+// as well.
 #pragma once
 
 #include <filesystem>

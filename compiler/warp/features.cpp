@@ -50,7 +50,7 @@ FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& t
     columns.middleCols(1 + 3 * nodes, nodes) = target_table.base;
   }
   columns = weights.asDiagonal() * columns;
-  // Only the coordinates of the columns in the left singular vectors are needed, not the vectors themselves.
+  // Only the coordinates of the columns are needed, not the left singular vectors themselves.
   const auto [values, vectors] = symmetric_eigen(columns.transpose() * columns);
   const Eigen::VectorXd strengths = values.tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
   const Eigen::MatrixXd features = strengths.asDiagonal() * vectors.rightCols(kFeatureBasis).transpose();

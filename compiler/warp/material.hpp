@@ -18,7 +18,7 @@ namespace remap {
 // skipped. Reflectances and alpha are in 0 to 1 (clamped()).
 struct WarpMaterial {
   std::string name;  // name for messages
-  BrdfModel model;   // of the specular lobe; default: GGX with Schlick's Fresnel
+  BrdfModel model;   // model of the specular lobe; GGX with Schlick's Fresnel by default
   std::vector<WarpTexel> texels;
   bool is_dielectric = false;  // as in MapModel: reflectance is not linear in specular
 };

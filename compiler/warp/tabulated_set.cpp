@@ -175,7 +175,7 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   const double largest = largest_of(layout.channels[0].type);
   for (const float value : channel_values(layout, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
-    const bool is_entry = entry >= 0.0 && entry < entries;  // also false for NaN
+    const bool is_entry = entry >= 0.0 && entry < entries;  // false for NaN, too
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
   }
 }

@@ -165,7 +165,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
     id_ = ::fork();
     if (id_ == 0) become(parent, arguments.data(), input.read, output.write, errors.write);
     failure = id_ < 0 ? errno : 0;
-    if (id_ > 0) ::setpgid(id_, id_);  // both processes set it; the first one wins
+    if (id_ > 0) ::setpgid(id_, id_);  // both processes call this; the first call has the effect
     for (int end : {input.read, output.write, errors.write}) ::close(end);
     pipes_ = {input.write, output.read, errors.read};
   } catch (const Error&) {
@@ -250,7 +250,7 @@ void ChildProcess::take_output(std::string_view bytes) {
   changed_.notify_all();
 }
 
-// Drops its output from here on, because the processes that it has started may still write.
+// Kills the group and drops its output from here on, because processes outside of the group may still write.
 void ChildProcess::stop_for(const char* fault) {
   fault_ = fault;
   lines_.clear();

@@ -17,8 +17,8 @@ class PictureCache {
   // `renderer` is WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // A Found is what the cache holds for a request. If there is a file that cannot be used, `image` is empty
-  // and `damage` has the reason (`FILE: its checksum does not match its content`).
+  // A Found is what the cache has for a request. If the file cannot be used, `image` is empty and `damage`
+  // has the reason (`FILE: its checksum does not match its content`).
   struct Found {
     std::optional<Image> image;
     std::string damage;

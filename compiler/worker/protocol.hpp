@@ -21,7 +21,7 @@ struct WorkerDescription {
   bool meshes = false;  // accepts shapes other than the sphere, as files
 };
 
-// A PictureRequest is the request for one picture, the same in every run. It is the key of a cache.
+// A PictureRequest is the request for one picture. It is the same in every run, so it is the key of a cache.
 struct PictureRequest {
   std::string text;   // JSON: model, parameters, scene, seed, channels
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`

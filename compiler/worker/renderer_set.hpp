@@ -1,5 +1,6 @@
-// This file combines all renderers: the built-in one and workers. A worker is started when a model with its
-// prefix is first requested. Workers come from the command line, the user's list, and the shipped list.
+// This file combines all renderers: the built-in one and workers. It starts a worker when a model with the
+// worker's prefix is first requested. Workers come from the command line, the user's list, and the shipped
+// list.
 #pragma once
 
 #include <filesystem>
@@ -54,7 +55,7 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 // Parses `NAME=COMMAND` of the command line. Throws kUsage.
 WorkerEntry parse_worker(const std::string& text);
 
-// Returns all workers by name. If several have the same name, the first counts, in the order `given`, the
+// Returns all workers by name. If several have the same name, the first is used, in the order `given`, the
 // user's list, the shipped list. Throws kInput for an unreadable list, kUsage for errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 

@@ -10,9 +10,9 @@
 namespace remap {
 namespace {
 
-// This many processes may be lost for one picture. Only losses for the same picture count, because a machine
-// that fails can lose many processes at once. The last try gets a new process. Old processes may all end
-// after the same number of pictures, and the picture would not be the cause.
+// This many processes may be lost for one picture. Losses are counted for each picture, because a machine
+// that fails can lose many processes at once. The last attempt uses a new process. Old processes may all end
+// after the same number of pictures, which would not be the fault of this picture.
 constexpr int kMostLosses = 3;
 
 // A pause checks this often for an interruption.
@@ -53,7 +53,7 @@ class WorkerRenderer::Turn {
   const std::string& key_;
 };
 
-// A Lease is a worker for one picture: an idle one, or a new one if there is none.
+// A Lease borrows a worker for one picture: an idle worker, or a new one if none is idle.
 class WorkerRenderer::Lease {
  public:
   Lease(const WorkerRenderer& renderer, bool must_be_new)
@@ -133,7 +133,7 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if it was one loss too many. Otherwise it waits, because a lost machine is noticed late.
+// Throws if this loss was one too many. Otherwise it waits, because the loss of a machine is noticed late.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(
