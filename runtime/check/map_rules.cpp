@@ -81,8 +81,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15
-// and 0.85. Edges are thinner, so they do not count.
+// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all in this
+// range, too. This ignores edges, because they are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -226,7 +226,7 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
 
 void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
-  // Ks of MTL is not a reflectance at normal incidence, and beside metallic a specular map is a level.
+  // Ks of MTL is not a reflectance at normal incidence. In a set with metallic, a specular map is a level.
   const bool has_metallic =
       std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
   if (material.kind == MaterialKind::kMtl || has_metallic) return;
@@ -267,12 +267,12 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;                  // the color of a label, cut out by alpha
-    constexpr int kSmall = 4;  // side of images that replace a number on purpose
+      return;                  // alpha cuts a label of one color out
+    constexpr int kSmall = 4;  // images up to this side replace a number on purpose
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
       return;
-    // The map may be packed, and needed for its other channels.
+    // If other channels of the map are in use, the map is needed.
     if (!std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
           return other.map != use.map || all_are_constant(planes_of(material, other));
         }))
@@ -416,7 +416,8 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     MaterialUse green = use;
     green.channels = Channels::kGreen;
     const Curl curl = curl_of(rgb, texels.columns, texels.rows);
-    constexpr double kClear = 2.0;  // factor; noise and rounding add the same amount to both curls
+    // least ratio of the curls; noise and rounding add the same amount to both
+    constexpr double kClear = 2.0;
     const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
                              : curl.up > kClear * curl.down ? Orientation::kDirectX
                                                             : Orientation::kUnknown;

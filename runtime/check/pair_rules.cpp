@@ -18,7 +18,8 @@ std::string place_of(const CheckedMaterial& material, const MaterialUse& use) {
                                           : shown + ":" + std::string(name_of(kChannels, use.channels));
 }
 
-// Returns a map of roughness, gloss or alpha as roughness. Its role decides which of these it holds.
+// Returns a map of roughness, gloss or alpha as roughness. The role of the map says which of the three it
+// holds.
 std::optional<Plane> roughness_by_role(const CheckedMaterial& material, const MaterialUse& use) {
   const Plane* stored = material.plane(use);
   if (stored == nullptr) return std::nullopt;
@@ -76,11 +77,12 @@ void for_width_pairs(const CheckedMaterial& material, Judge judge) {
 }
 
 // Returns options of oiiotool that take the root of a map's roughness. `power` relates it to the other map,
-// which may be called alpha.
+// which may hold alpha.
 std::string root_of(const CheckedMaterial& material, const MaterialUse& use, bool is_other_alpha,
                     double power) {
   const auto raised = [&](double exponent) { return "--powc " + numbers_for(material, use, exponent, 1.0); };
-  if (use.role == Role::kOpacity) return raised(2.0 / power);  // the map stays alpha, a square
+  // the map stays alpha, which is the square of roughness
+  if (use.role == Role::kOpacity) return raised(2.0 / power);
   const std::string root = raised((is_other_alpha ? 0.5 : 1.0) / power), turn = inversion_of(material, use);
   if (use.role == Role::kGlossiness) return turn + " " + root + " " + turn;
   if (use.role == Role::kGlossinessSquared)
@@ -157,12 +159,12 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
   for_width_pairs(
       material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
         if (distance(first, second, [](double value) { return value; }) < kSame) return;
-        // Maps named alpha hold opacity or a width.
+        // A map named alpha may hold opacity or a width.
         for (const double power : {2.0, 0.5, 4.0, 0.25}) {
           if (distance(first, second, [&](double value) { return std::pow(std::max(0.0, value), power); }) >=
               kSame)
             continue;
-          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root is correct
+          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha next to its root is correct
           const bool second_is_wrong = power < 1.0;
           const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
           const double squared = second_is_wrong ? 1.0 / power : power;

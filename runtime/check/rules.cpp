@@ -24,7 +24,7 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// These are all extensions except the last one. Importers that ignore fewer have lists below.
+// These are all extensions except the last one. The lists below are for importers that ignore fewer.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
@@ -96,7 +96,7 @@ std::span<const Rule> rules() { return kRules; }
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader) {
   std::vector<MaterialFinding> findings;
   for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
-  // Rules about values do not apply if the map holds something else.
+  // If a map holds something else than its role says, rules about its values do not apply.
   std::set<std::string> misread;
   for (const MaterialFinding& finding : findings)
     if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.context);

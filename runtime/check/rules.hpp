@@ -15,7 +15,7 @@ namespace remap {
 enum class Confidence {
   kCertain,   // the files contradict each other or themselves
   kLikely,    // the pattern rarely has another cause
-  kPossible,  // worth a look
+  kPossible,  // the user should have a look
 };
 inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCertain, "certain"},
                                                              {Confidence::kLikely, "likely"},
@@ -54,7 +54,7 @@ struct GltfConsumer {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
-  bool ignores_factors_beside_maps = false;   // for metallic and roughness
+  bool ignores_factors_beside_maps = false;   // applies to metallic and roughness
   bool wants_directx_normals = false;
 };
 // Returns `gltf` (only the core), `unity`, `unreal`, `godot`, `threejs` and `usd`.

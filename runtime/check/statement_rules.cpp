@@ -104,7 +104,7 @@ void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader,
   }
 }
 
-// Real dielectrics reflect 2 to 17 % at normal incidence; their index is 1.3 (water) to 2.42 (diamond).
+// Real dielectrics reflect 2 to 17 % at normal incidence. Their index is 1.3 (water) to 2.42 (diamond).
 void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                          std::vector<MaterialFinding>& findings) {
   if (material.is_all_metal()) return;

@@ -47,7 +47,8 @@ struct Reader {
   std::vector<std::string> choices;
 };
 
-// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
+// Throws kUsage, because `option` got `word`. The message offers the `known` names, each of which is a
+// `noun`.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 
@@ -104,7 +105,7 @@ class Option {
   // For lists: decides whether words after the first belong to the option. If not, repeat the option.
   Option* allow_extra_args(bool allowed);
   Option* expected(int min, int max);
-  // For lists: items come in groups of this many words.
+  // For lists: an item consists of this many words.
   Option* type_size(int count);
   Option* excludes(Option* other);
   Option* needs(Option* other);

@@ -83,8 +83,8 @@ class Json {
   bool empty() const { return size() == 0; }
 
   // Returns the text on one line, or with `indent` spaces for each level. A text that is not UTF-8, as a file
-  // name may be, gets replacement characters. If a field `path` has such a text, a field `path_base64` beside
-  // it holds the bytes; lists of texts are treated alike.
+  // name may be, gets replacement characters. If a field `path` has such a text, a field `path_base64` next
+  // to it holds the bytes. The same applies to lists of texts.
   std::string dump(int indent = -1) const;
 
   using Value =

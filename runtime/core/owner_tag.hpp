@@ -14,7 +14,7 @@ std::string owner_tag();
 // Returns random letters from the system, for file names that nobody can guess in advance.
 std::string random_letters();
 
-// Returns whether `mark` names a process of this machine and namespace that has ended. Returns false for
+// Returns true if `mark` names a process of this machine and namespace that has ended. Returns false for
 // every other text, and for a mark of another machine, because nobody can check it. If a new process has the
 // same number, the mark is treated as alive until that process ends, too.
 bool is_stale_owner(std::string_view mark);

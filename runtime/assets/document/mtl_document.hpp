@@ -14,11 +14,11 @@ namespace remap {
 // Limits the text, and the number of lines with a statement; each such line takes 56 bytes of memory.
 inline constexpr std::size_t kLongestMtl = std::size_t{1} << 28, kMostMtlStatements = std::size_t{1} << 23;
 
-// An MtlStatement is the places of a statement in the text.
+// An MtlStatement holds the places of a statement in the text.
 struct MtlStatement {
-  TextSpan line;       // from the indentation to before the line ending; a backslash joins lines
-  TextSpan ending;     // of the line; empty at the end of the text
-  TextSpan word;       // `Kd`
+  TextSpan line;    // from the indentation to before the line ending; if a backslash joins lines, all of them
+  TextSpan ending;  // line ending of `line`; empty at the end of the text
+  TextSpan word;    // `Kd`
   TextSpan arguments;  // without the white space around them; may be empty
 };
 

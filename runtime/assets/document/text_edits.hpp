@@ -33,7 +33,8 @@ class TextEdits {
 
   // Returns the bytes that are replaced, in order. Insertions replace no bytes.
   std::vector<TextSpan> touched() const;
-  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, a caller's error.
+  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, which is a mistake of the
+  // caller.
   std::string result() const;
 
  private:

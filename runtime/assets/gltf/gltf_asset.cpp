@@ -51,7 +51,7 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
   return resources;
 }
 
-// Drops files that only replaced images named. The asset no longer needs them.
+// Removes files from the list if only replaced images used them, because the asset no longer needs them.
 void drop_unnamed(AssetConversion& conversion, const std::string& context) {
   std::set<std::string> named;
   for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, context)))

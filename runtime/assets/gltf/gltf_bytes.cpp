@@ -14,7 +14,7 @@
 namespace remap {
 namespace {
 
-constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // bytes of a file
+constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // limit for the bytes of a file
 
 }  // namespace
 

@@ -164,7 +164,7 @@ class GltfConversion {
     result_.asset.text = text.result();
   }
 
-  // Reports vertex colors, because COLOR_0 multiplies different colors in both workflows.
+  // Reports vertex colors: COLOR_0 multiplies base color in one workflow and diffuse in the other.
   void note_colored() {
     std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// This many images stay decoded, because materials in sequence often share a pair.
+// This many images stay decoded, because materials in sequence often use the same two.
 constexpr std::size_t kRecentImages = 2;
 
 // These extensions of textures name an image of another format. The most common comes first.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kNoSampler = std::numeric_limits<std::size_t>::max();
 constexpr std::string_view kPng = "image/png", kJpeg = "image/jpeg";
 
-// Takes `wanted` out of `spares`, otherwise the first.
+// Takes `wanted` out of `spares` if it is there, otherwise the first spare.
 std::optional<std::size_t> take_spare(std::vector<std::size_t>& spares, std::optional<std::size_t> wanted) {
   if (spares.empty()) return std::nullopt;
   auto found = wanted ? std::ranges::find(spares, *wanted) : spares.end();
@@ -76,7 +76,7 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
     chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
   for (std::size_t i = 0; i < new_images_.size(); ++i) {
     write_image(new_images_[i], i, edits);
-    new_images_[i].bytes = std::string();  // free them: they are written, and may be many
+    new_images_[i].bytes = std::string();  // frees memory: the bytes are written, and may be many
   }
   for (NewTexture& texture : new_textures_) write_texture(texture, edits);
   empty_spares(edits);
@@ -107,7 +107,8 @@ std::string GltfNewImages::free_uri(const std::string& model, const NewImage& im
   return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
 }
 
-// `own` is the old image that the new one replaces. It is missing if the new image is added.
+// Adds a view of `bytes`. `own` is the old image that the new one replaces, or empty if the new image is
+// added.
 std::size_t GltfNewImages::add_view(const std::string& bytes, SpanValue own, TextEdits& edits) {
   std::string& appended = tail_.appended;
   appended.append((4 - appended.size() % 4) % 4, '\0');
@@ -195,7 +196,7 @@ void GltfNewImages::drop_formats(SpanValue texture, TextEdits& edits) {
   for (const SpanValue& member : gone) edits.remove(member);
 }
 
-// Returns the location of an image that adds no bytes, if there is one, otherwise one texel.
+// Returns the view of another new image, which adds no bytes, or one texel if there is no view.
 GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
@@ -205,7 +206,7 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
 }
 
 // Empties spare places that no new image took. An image must have bytes and a view must have at least one
-// byte, so they share the bytes of others.
+// byte, so they use the bytes of others.
 void GltfNewImages::empty_spares(TextEdits& edits) {
   for (const std::size_t image : spares_.images) set_location(images_[image], cheapest_location(), edits);
   for (const std::size_t view : spares_.views) {

@@ -84,7 +84,7 @@ class CoreToSpecGloss final : public GltfDirection {
   }
 
  private:
-  // Refuses other extensions, because viewers ignore them beside spec-gloss if they change reflection.
+  // Refuses extensions that change reflection, because viewers ignore them if spec-gloss is present.
   static void require_alone(SpanValue extensions) {
     for (const SpanValue& extension : extensions.children()) {
       const std::string name = extension.key();
@@ -109,7 +109,7 @@ class CoreToSpecGloss final : public GltfDirection {
 
   // Constant maps become factors of `material`.
   SpecGlossTexts texts_of(GltfWorkflow workflow, GltfMaterial& material, AssetMaterial& report) {
-    // Diffuse of a dielectric is its base color, by the conventions of both workflows.
+    // The diffuse of a dielectric is its base color, by the conventions of both workflows.
     const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
     std::span<const GltfInput> inputs = inputs_of(workflow);
     if (has_textures(material, inputs)) {

@@ -46,7 +46,7 @@ struct UsedTextures {
 
 // A GridReason states why textures must lie on one grid, for messages.
 struct GridReason {
-  std::string_view decided;    // the parameters that all textures determine together, such as `metallic`
+  std::string_view decided;    // the parameters that need all textures at once, such as `metallic`
   std::string_view otherwise;  // an option that needs no grid, such as `, or --extensions`; may be empty
 };
 

@@ -35,7 +35,7 @@ void MtlLibraries::read(const std::vector<std::string>& lines, const std::string
     std::size_t found = 0;
     for (const std::string& name : parts_between(line, ' ')) {
       if (name.empty()) continue;
-      // The file may lie here, and not in the folder that its name gives.
+      // The file may lie next to the OBJ file, although its name gives another folder.
       if (read_file(name, warnings) || read_file(file_name_of(name), warnings))
         ++found;
       else

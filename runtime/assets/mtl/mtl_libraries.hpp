@@ -42,10 +42,10 @@ class MtlLibraries {
   // file whose maker gives statements another meaning. Throws kInput for a file that cannot be read.
   void read(const std::vector<std::string>& lines, const std::string& obj,
             std::vector<std::string>& warnings);
-  // Returns a material by its name. If several have the name, the first one counts.
+  // Returns a material by its name. If several have the name, it returns the first one.
   std::optional<Entry> find(const std::string& material) const;
-  // Returns true if Tr is 1 in every material and d in none. MeshLab writes Tr 1 for opaque materials, but
-  // the specification means 1 - d.
+  // Returns true if Tr is 1 in every material and d in none. By the specification, Tr 1 means invisible, but
+  // MeshLab writes Tr 1 for opaque materials.
   bool has_tr_for_opaque() const;
   // Return the files that were read, and the images that they name, relative to the OBJ file.
   const std::set<std::string>& paths() const noexcept { return paths_; }

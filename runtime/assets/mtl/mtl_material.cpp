@@ -17,7 +17,7 @@ enum class OptionArguments { kWord, kNumbers };
 struct MapOption {
   std::string_view name;
   OptionArguments arguments;
-  std::size_t most;  // most numbers
+  std::size_t most;  // greatest number of numbers
 };
 constexpr std::array<MapOption, 14> kMapOptions = {{{"-s", OptionArguments::kNumbers, 3},
                                                     {"-o", OptionArguments::kNumbers, 3},
@@ -193,8 +193,8 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
 constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number beside a map
 
 // Applies Blender's rules for materials of its Principled BSDF. Roughness is 1 - sqrt(Ns / scale). Metallic
-// is Ka if illum is 3 or 6 or Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns holds
-// roughness and map_refl metallic. A number beside a map is not used.
+// is Ka if illum is 3 or 6, or if Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns
+// holds roughness and map_refl metallic. If there is a map, the number is not used.
 void apply_blender(double scale, MtlSurface& surface) {
   if (surface.diffuse_map) surface.diffuse = kUnused;
   if (!surface.roughness) {
@@ -211,8 +211,8 @@ void apply_blender(double scale, MtlSurface& surface) {
   if (surface.specular && !surface.specular_map) surface.specular_level = 2.0 * surface.specular->front();
 }
 
-// Applies the rules of nvdiffrec and its descendants: Ks and map_Ks have roughness in green, metallic in
-// blue.
+// Applies the rules of nvdiffrec and of programs based on it: Ks and map_Ks have roughness in green, metallic
+// in blue.
 void apply_nvdiffrec(MtlSurface& surface) {
   const std::array<double, 3> packed = surface.specular.value_or(kUnused);
   surface.roughness = packed[1];
@@ -299,7 +299,8 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {
-    // No real material makes its map black; exporters write the number that the map replaces.
+    // In a real material, Kd 0 would make the map black. Exporters write this number because the map replaces
+    // it.
     warnings.emplace_back("Kd is 0 beside map_Kd, and counts as 1");
     surface.diffuse = kUnused;
   }
@@ -334,7 +335,7 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
     }
   }
   if (maker == MtlMaker::kText) return cover;
-  // Blender and others write these numbers beside maps without using them, and illum 6 and 9 for any alpha.
+  // Blender and others write these numbers although maps replace them, and illum 6 and 9 for any alpha.
   if (cover.opacity_map) cover.opacity = 1.0;
   if (cover.emissive_map) cover.has_emissive = false, cover.emissive = {};
   cover.refracts = false;

@@ -43,7 +43,8 @@ Json specular_of(double specular, const std::array<double, 3>& color) {
   return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
 }
 
-// Returns the opacity channel: a map's alpha if it has one, as most tools write it, or its luminance.
+// Returns the channel of opacity: alpha if the map has alpha, because most tools write it there, otherwise
+// luminance.
 char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
   if (map.channel != '\0') return map.channel;
   return pixels.has_alpha() ? 'm' : 'l';
@@ -75,7 +76,7 @@ struct ObjMaterials::MaterialDraft {
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
   std::size_t base_image = kNoImage;    // index of an image in the file
-  std::size_t* shared_image = nullptr;  // place where other materials find it
+  std::size_t* shared_image = nullptr;  // where its index is kept for other materials
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 
@@ -213,7 +214,7 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
   draft.keeps_file = true;
 }
 
-// Uses the lines of later tools, which mean the same as in glTF. A map replaces the number.
+// Uses Pr, Pm and their maps, which mean the same as in glTF. A map replaces the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
   const MetalRoughNumbers numbers = metal_rough_of(surface, !options_.extensions);
@@ -230,9 +231,9 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
         textures_.add_pixels(draft.library.images, *pixels, *model, "_metallicRoughness"), *model);
 }
 
-// Sets the level; 1 is the F0 of 0.04 that glTF has by default. Metals have no specular level.
+// Sets the level. Level 1 is an F0 of 0.04, the default of glTF. Metals have no specular level.
 void ObjMaterials::set_specular_level(MaterialDraft& draft) {
-  constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
+  constexpr double kSeen = 0.25;  // smaller changes of the level are invisible: F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);
   if (std::fabs(level - 1.0) < kSeen || draft.metallic == 1.0) return;
   if (!options_.extensions) {
@@ -259,7 +260,8 @@ bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   return false;
 }
 
-// Sets the index, which gives the strength of reflection, and Tf, the color of transmitted light.
+// Sets the index of refraction, which determines how much is reflected, and Tf, the color of transmitted
+// light.
 void ObjMaterials::set_glass(MaterialDraft& draft) {
   const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
   draft.base = draft.cover.filter;
@@ -309,7 +311,7 @@ void ObjMaterials::set_dielectric(MaterialDraft& draft, const MtlReflection& ref
     keep_diffuse_map(draft);
     return set_extension(draft, kSpecularExtension, Json{{"specularFactor", 0}});
   }
-  // A single map of diffuse is divided by 1 - F, like a factor.
+  // If diffuse is a map, the map is divided by 1 - F like a factor.
   const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
   const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
   if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
@@ -401,7 +403,7 @@ void ObjMaterials::set_opacity(MaterialDraft& draft) {
   const bool has_map = draft.base_map != nullptr || opacity_map;
   if (!draft.blends || draft.base_image != kNoImage || !has_map) return;
   if (draft.base_pixels == nullptr) {
-    // Other materials may have the same two files.
+    // Other materials may combine the same two files.
     const std::string key =
         draft.library.images.folder() + '\0' +
         (draft.base_map != nullptr ? draft.base_map->file + '\0' + draft.base_map->options : "") + '\0' +
@@ -431,7 +433,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
-  // Many materials use one file for both.
+  // In many materials, one file is both color and opacity. Its alpha can stay.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)

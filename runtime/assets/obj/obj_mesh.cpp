@@ -28,8 +28,8 @@ constexpr std::size_t kMostFacesOfPart = std::size_t{1} << 14;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-// ObjLines reads the lines of an OBJ file in order, in blocks. A line is a word and the rest, without white
-// space around them. A backslash joins lines.
+// ObjLines reads the lines of an OBJ file in order, in blocks. A line is a word and the rest, without
+// surrounding white space. A backslash joins lines.
 class ObjLines {
  public:
   ObjLines(const ByteSource& source, const std::string& context) : reader_(source, context) {
@@ -89,12 +89,12 @@ class ObjLines {
   std::string_view line_, word_, rest_;
 };
 
-// An ObjStream rewrites an OBJ file for the importer, which ends names of materials at a space and makes one
-// shape of each whole group. Materials and groups become numbers, large groups are cut, and lines without
-// geometry are dropped.
+// An ObjStream rewrites an OBJ file for the importer, which has two limits: it ends names of materials at a
+// space, and it makes one shape of each whole group. Materials and groups become numbers, large groups are
+// cut, and lines without geometry are dropped.
 class ObjStream final : public std::streambuf {
  public:
-  // `take` is called before more lines are made, so that earlier results of the importer can be freed.
+  // `take` is called before more lines are made. It can free earlier results of the importer.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.push_back({"", false});
@@ -199,7 +199,7 @@ class ObjStream final : public std::streambuf {
       for (std::size_t i = 2; i < corners_.size(); ++i)
         ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
     }
-    // Cut here only if all vertices of the faces are known, because the importer triangulates them now.
+    // Cuts only if all vertices of the faces are known, because the importer then triangulates the faces.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
@@ -236,7 +236,7 @@ class ObjStream final : public std::streambuf {
   const std::string& context_;
   ObjScene& scene_;
   std::function<void()> take_;
-  std::string made_, text_;  // lines to come, and lines that are being read
+  std::string made_, text_;  // lines to come, and the lines that the importer is reading
   std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
   std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
@@ -245,7 +245,8 @@ class ObjStream final : public std::streambuf {
   std::map<std::string, std::string> numbers_;  // numbers of materials
 };
 
-// NumberedMaterials makes the importer treat the name of a library as the number of its only material.
+// NumberedMaterials gives the importer a library whose name is a number and whose only material has this
+// number.
 class NumberedMaterials final : public tinyobj::MaterialReader {
  public:
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>*,
@@ -445,7 +446,7 @@ class ObjReader {
  private:
   void load() {
     std::istream stream(&stream_);
-    stream.exceptions(std::ios::badbit);  // so that an exception while reading arrives here
+    stream.exceptions(std::ios::badbit);  // otherwise the stream would swallow exceptions while reading
     NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;

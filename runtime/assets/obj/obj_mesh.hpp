@@ -13,7 +13,8 @@ namespace remap {
 
 // Limits the file, because it takes up to three times as much memory.
 inline constexpr std::size_t kLongestObj = std::size_t{1} << 30;
-// Polygons with more corners become fans of triangles, because other methods take the cube of their number.
+// Polygons with more corners become fans of triangles. Other methods need time proportional to the cube of
+// the corners.
 inline constexpr std::size_t kMostClippedCorners = 1024;
 
 // An ObjPrimitive is triangles of one material. Attributes have an entry for each vertex, or none at all.
