@@ -1,4 +1,5 @@
-// One build of a header over interleaved texels; names and flags come from CMake, as in pass.cpp.
+// This file is one build of a header over interleaved texels. Names and flags come from CMake, as in
+// pass.cpp.
 #include "bench/builds.hpp"
 
 #define BENCH_TEXT(name) #name
