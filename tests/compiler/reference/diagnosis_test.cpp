@@ -1,4 +1,4 @@
-// Diagnoses of metallic materials, and the estimate of a dielectric's F0.
+// This file tests diagnoses of metallic materials, and the estimate of a dielectric's F0.
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ MetallicDiagnosis diagnosis_of(const WorkflowConversion& conversion, const Specu
   return diagnose(conversion, material, to_metallic(conversion, material));
 }
 
-// Texels of metallic materials, as 8-bit maps hold them.
+// Returns texels of metallic materials, as 8-bit maps store them.
 std::vector<SpecularMaterial> stored_family(const WorkflowConversion& there, int count,
                                             float least_metallic) {
   std::mt19937 random(21);
@@ -65,7 +65,8 @@ TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide
 }
 
 TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
-  const SpecularMaterial bright{{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, 0.5f};  // twice what arrives
+  // reflects twice the light that arrives
+  const SpecularMaterial bright{{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, 0.5f};
   CHECK(diagnosis_of(plain(kClean), bright).is_clamped);
   CHECK(diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 1.5f}, 0.5f}).is_clamped);
   CHECK(!diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 0.04f}, 0.5f}).is_clamped);

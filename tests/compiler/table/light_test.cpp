@@ -1,4 +1,4 @@
-// The rule about the light of two renderers.
+// This file tests the rule about the light of two renderers.
 #include "table/light.hpp"
 
 #include <catch2/catch.hpp>

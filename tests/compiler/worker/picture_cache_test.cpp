@@ -1,4 +1,4 @@
-// The picture cache: versions, requests, damaged files and threads.
+// This file tests the picture cache: versions, requests, damaged files and threads.
 #include <cmath>
 #include <limits>
 
@@ -91,7 +91,7 @@ TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake: cache: " + files[0].string() + ": ") &&
                                 Contains("(the picture is rendered again)"));
-    CHECK(read_file(files[0]) == whole);  // repaired
+    CHECK(read_file(files[0]) == whole);  // the file is repaired
   }
 }
 
