@@ -1,6 +1,7 @@
-// This file runs the program under test as a part of the test program. Its processes are copies of one that
-// has loaded all libraries and run nothing. Loading takes a quarter of a second, and more under sanitizers.
-// Tests that run the program in other ways (scripts, farms, packages) start its file.
+// This file runs the program under test as a part of the test program. Its processes are copies of one
+// process that has loaded all libraries, but has not run the program yet. Loading takes a quarter of a
+// second, and more under sanitizers. Tests that run the program in other ways (scripts, farms, packages)
+// start its file.
 #pragma once
 
 #include <string>

@@ -198,7 +198,7 @@ std::optional<Fit> random_form_fit(std::uint64_t seed) {
   fit.domain = {{random.between(0.01, 0.21), 1.0}, {0.0, random.magnitude(0.3, 3.0)}};
   CompactForm form;
   form.pole = static_cast<float>(random.magnitude(0.03, 3.0));
-  form.alpha = random_factor(&random, seed % 4 == 3);  // long: by loops instead of padded rows
+  form.alpha = random_factor(&random, seed % 4 == 3);  // a long form uses loops instead of padded rows
   form.specular = random_factor(&random, seed % 4 == 3);
   const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
   if (seed % 3 != 0) form.specular_limit = number(0.2, 1.2);

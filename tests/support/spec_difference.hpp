@@ -9,7 +9,7 @@
 namespace remap {
 
 struct SpecDifference {
-  std::string name;    // of the attribute, or of the field of the description
+  std::string name;    // name of the attribute, or of the field of the description
   std::string before;  // type and value, or `nothing`
   std::string after;
   bool operator==(const SpecDifference&) const = default;

@@ -49,8 +49,8 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
 }
 
 TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured elsewhere", "[slow]") {
-  // Measured by an independent prototype: natural-1 .1221 and 1.032, paper .157 and 1.265; Ward without
-  // Fresnel .1188 and .712. Tolerances are half a unit of the last digit given, and a little.
+  // An independent prototype measured natural-1 .1221 and 1.032, paper .157 and 1.265, and Ward without
+  // Fresnel .1188 and .712. Tolerances are a little more than half a unit of the last digit.
   const auto renderer = make_builtin_renderer();
   const auto row = [&](const std::string& source, const std::string& target, const std::string& objective) {
     return sweep(*renderer, sweep_options(source, target, objective, {{0.15, 0.5}})).rows.front();

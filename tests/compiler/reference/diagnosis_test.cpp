@@ -57,7 +57,7 @@ TEST_CASE("diagnosis: the residual is the root of the oracle's error, 0 on the f
 TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide where it does not") {
   const SpecularMaterial gold = to_specular(plain(Equation2{}), {{1.0f, 0.77f, 0.34f}, 1.0f, 0.3f});
   CHECK(diagnosis_of(plain(kClean), gold).metallic_uncertainty < 0.1f);
-  // Of albedo F0 diffuse fades as fast as F0 stays: any metallic has the same F0, and hardly any diffuse.
+  // At an albedo close to F0, every metallic has the same F0 and hardly any diffuse.
   const SpecularMaterial soot = to_specular(plain(Equation2{}), {{0.01f, 0.01f, 0.01f}, 0.0f, 0.9f});
   CHECK(diagnosis_of(plain(kClean), soot).metallic_uncertainty > 0.1f);
   const SpecularMaterial black{{0, 0, 0}, {0, 0, 0}, 0.5f};

@@ -1,4 +1,4 @@
-// Numbers as text, and names that are near.
+// This file tests numbers as text, and names that are similar.
 #include <cmath>
 #include <cstring>
 #include <limits>

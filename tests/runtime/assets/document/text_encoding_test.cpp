@@ -1,4 +1,4 @@
-// Texts of bytes and of UTF-16, and MTL and OBJ files in them.
+// This file tests texts of bytes and of UTF-16, and MTL and OBJ files in both encodings.
 #include "assets/document/text_encoding.hpp"
 
 #include <random>
@@ -26,7 +26,7 @@ std::string decoding_refusal(const std::string& bytes) {
   return "";
 }
 
-// Text of letters, of characters of two to four bytes, and of line ends.
+// Returns a text of letters, of characters of two to four bytes, and of line endings.
 std::string random_text(std::mt19937& random, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("UTF-16 becomes UTF-8 and the same bytes again", "[assets]") {
       REQUIRE(encoding_of(MemorySource(bytes)) == encoding);
       REQUIRE(decoded(bytes) == text);
     }
-  // Characters on the edges of blocks, too.
+  // Some characters lie on the edges of blocks.
   const std::string text = kMark + "x" + random_text(random, std::size_t{1} << 20);
   CHECK(decoded(encoded(text, TextEncoding::kUtf16Big, "file")) == text);
 }

@@ -1,4 +1,4 @@
-// Whole glTF files: containers, spec-gloss materials, and what a conversion keeps.
+// This file tests whole glTF files: containers, spec-gloss materials, and what a conversion must not change.
 #include "assets/gltf/gltf_asset.hpp"
 
 #include <chrono>
@@ -29,7 +29,7 @@ std::string asset_failure(const std::string& bytes) {
   return "";
 }
 
-// The text of the only material after a conversion.
+// Returns the text of the only material after a conversion.
 std::string material_of(const std::string& text, const AssetOptions& options = {}) {
   const std::string json = converted_bytes(text, options);
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
@@ -225,7 +225,7 @@ TEST_CASE("A hundred thousand materials take a moment", "[assets][slow]") {
 
 namespace {
 
-// Random JSON with the formatting of nobody.
+// A RandomText writes random JSON in unusual formatting.
 class RandomText {
  public:
   explicit RandomText(std::uint32_t seed) : random_(seed) {}
@@ -296,7 +296,7 @@ std::string random_specgloss(RandomText& random) {
   return random.object(members);
 }
 
-// `has_dielectrics`: some with KHR_materials_specular and _ior.
+// With `has_dielectrics`, some materials have KHR_materials_specular and _ior.
 std::string random_material(RandomText& random, bool has_dielectrics) {
   RandomMembers members, extensions;
   if (random.often(50)) members.emplace_back("\"name\"", random.word());
@@ -401,7 +401,7 @@ TEST_CASE("Public files keep every byte but those of converted materials", "[ass
     folded.folds_specular = true;
     for (const AssetOptions& options : {AssetOptions(), specgloss, folded}) {
       const std::string after = converted_bytes(bytes, options);
-      const AssetConversion result = result_of(bytes, options);  // images are converted by tests/cli
+      const AssetConversion result = result_of(bytes, options);  // tests/cli converts files with images
       CHECK(require_others_kept(json_in(bytes), json_in(after), options) ==
             result.count(MaterialState::kConverted));
       CHECK(converted_bytes(after, options) == after);
