@@ -96,9 +96,9 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
 // Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
-    throw usage_error(
-        command.table.path +
-        ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
+    throw usage_error(command.table.path +
+                      ": converting metallic to specular needs no fit, because a formula is exact (use "
+                      "--swap to fit the inverse)");
   if (const std::string model(command.options.kind); !model.empty() && model != "mlp")
     throw usage_error("--model " + model + ": not available for a table of materials (use mlp)");
   if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");

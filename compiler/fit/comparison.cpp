@@ -236,7 +236,7 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
     enter(shape_name(shape), [&] {
       CompactForm form = fit_form(samples, base.limits, base.domain, shape, sound);
       if (!is_sound(form, base.domain))
-        throw numeric_error("not positive, or it falls where the source rises");
+        throw numeric_error("is not positive, or falls while the source rises");
       sound.push_back(form);
       if (pictures != nullptr) {
         std::vector<CompactForm> starts = {form};

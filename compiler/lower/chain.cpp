@@ -39,8 +39,8 @@ void require_links(const std::vector<Fit>& steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)
       throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " +
-                                         side_text(steps[i - 1].target) + ", but " + steps[i].id + " takes " +
-                                         side_text(steps[i].source));
+                                         side_text(steps[i - 1].target) + ", but " + steps[i].id +
+                                         " converts from " + side_text(steps[i].source));
     if (!visited.insert(steps[i].target.model).second)
       throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
                                          " a second time (remove a step)");

@@ -55,7 +55,7 @@ void require_roleless(const ModelDescription& model, const std::vector<std::stri
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
       throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
-                                         " and varies anyway (name a parameter without a role)");
+                                         " and varies anyway (choose a parameter without a role)");
 }
 
 std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelDescription& source) {

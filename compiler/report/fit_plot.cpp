@@ -197,7 +197,7 @@ bool is_png(const std::filesystem::path& path) { return path.extension() == ".pn
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg" && !is_png(path))
-    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg or .png");
+    throw Error(ErrorKind::kUsage, "--plot " + path.string() + ": the file name must end with .svg or .png");
   require_gnuplot();
   create_parent(path);
 }

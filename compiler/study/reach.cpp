@@ -35,7 +35,7 @@ Range common(const Range& a, const Range& b) { return {std::max(a.min, b.min), s
 Objective objective_of(const Fit& fit) {
   const auto found = fit.table.comments.find("objective");
   if (found == fit.table.comments.end())
-    throw input_error(fit.id + ": its table does not name an objective (use the fit of a sweep)");
+    throw input_error(fit.id + ": its table does not state an objective (use the fit of a sweep)");
   return recorded_objective(found->second);
 }
 

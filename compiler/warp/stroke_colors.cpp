@@ -275,7 +275,7 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
         distance(nearest.color, strokes[k].color) <= kPairRadius)
       continue;
     throw input_error(other_image.string() + ": has no stroke with color " + text_of(strokes[k].color) +
-                      " of " + image.string() + " (the nearest is " + text_of(nearest.color) +
+                      " of " + image.string() + " (the closest is " + text_of(nearest.color) +
                       "; every color must be in both images)");
   }
 }

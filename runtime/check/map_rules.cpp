@@ -197,8 +197,8 @@ void linear_color(const CheckedMaterial& material, const GltfConsumer*, const Ru
       return;
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "",
-         "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
-         "decode it as sRGB",
+         "is a color stored as integers that its file tags as linear; programs that ignore the tag (as glTF "
+         "requires) decode it as sRGB",
          image_fix(
              material, map,
              "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
@@ -315,7 +315,7 @@ void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& r
         {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
          percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
              std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
-         "export it again with 16 bits or as half float; the bits that it lacks are in no conversion of it"});
+         "export it again with 16 bits or as half float; no conversion can restore the missing bits"});
   });
 }
 
@@ -340,7 +340,7 @@ void bad_values(const CheckedMaterial& material, const GltfConsumer*, const Rule
                         "has values that are not " + std::string(role_name(use.role)) + ": " + what,
                         image_fix(material, material.maps[use.map],
                                   has_range ? "move them into the range from 0 to 1"
-                                            : "fill such texels from those around them",
+                                            : "fill such texels from their neighbours",
                                   has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
   });
 }
@@ -428,7 +428,8 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
          "its slopes belong to a surface only as " + text(seen) + ", but " +
-             (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
+             (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or importer states ") +
+             text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
@@ -439,7 +440,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
     findings.push_back({rule.name, confidence, material.maps[use.map].shown, "",
                         "is used as " + std::string(role_name(use.role)) + ", but " + what,
                         use.slot.empty()
-                            ? "give the map a name that says what it holds, or replace it by a map of " +
+                            ? "give the map a name that states what it holds, or replace it by a map of " +
                                   std::string(role_name(use.role))
                             : "point " + use.slot + " in " + material.path.filename().string() +
                                   " to the image of " + std::string(role_name(use.role))});

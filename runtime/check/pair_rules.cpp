@@ -111,7 +111,7 @@ void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule&
       continue;
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
-            ", which is data, but its file is tagged sRGB: readers that follow the tag decode it",
+            ", which is data, but its file is tagged sRGB: programs that follow the tag decode it",
         image_fix(material, map, "read it as raw (non-color), or remove the tag",
                   "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
                   "--eraseattrib remap:color_space"));
@@ -126,8 +126,8 @@ void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule&
       if (distance(decoded, data, [](double value) { return value; }) >= kSame) continue;
       const MaterialMap& map = material.maps[(is_second ? b : a).map];
       add(map, Confidence::kCertain,
-          "holds what " + place_of(material, is_second ? a : b) +
-              " holds, through the curve of sRGB: it was exported as a color",
+          "has the values of " + place_of(material, is_second ? a : b) +
+              ", encoded as sRGB: it was exported as a color",
           image_fix(material, map, "export it again as linear (raw, non-color), or decode it",
                     "--colorconvert sRGB linear"));
     }
@@ -147,9 +147,9 @@ void gloss_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
         findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
                             "is read as " + std::string(role_name(wrong.role)) + ", but " +
                                 place_of(material, other) + " (" + std::string(role_name(other.role)) +
-                                ") says the opposite in every texel: one of them is inverted",
+                                ") is the opposite in every texel: one of the two is inverted",
                             image_fix(material, material.maps[wrong.map],
-                                      "keep the right one; if that is the other, invert this one",
+                                      "keep the correct map; if that is the other map, invert this map",
                                       inversion_of(material, wrong))});
       });
 }
@@ -168,16 +168,15 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
           const bool second_is_wrong = power < 1.0;
           const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
           const double squared = second_is_wrong ? 1.0 / power : power;
-          findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
-                              "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
-                                  (squared == 2.0 ? "square" : "fourth power") + " of what " +
-                                  place_of(material, other) + " (" + std::string(role_name(other.role)) +
-                                  ") says: " +
-                                  (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
-                                                  : "it was squared twice"),
-                              image_fix(material, material.maps[wrong.map],
-                                        "keep the other map, or take the root of this one (alpha)",
-                                        root_of(material, wrong, other.role == Role::kOpacity, squared))});
+          findings.push_back(
+              {rule.name, Confidence::kCertain, place_of(material, wrong), "",
+               "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
+                   (squared == 2.0 ? "square" : "fourth power") + " of " + place_of(material, other) + " (" +
+                   std::string(role_name(other.role)) + "): " +
+                   (squared == 2.0 ? "it holds alpha, or the other map is its root" : "it was squared twice"),
+               image_fix(material, material.maps[wrong.map],
+                         "keep the other map, or take the root of this one (alpha)",
+                         root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }
       });
@@ -231,8 +230,8 @@ void duplicate_map(const CheckedMaterial& material, const GltfConsumer*, const R
       findings.push_back({rule.name, Confidence::kLikely, place_of(material, a), "",
                           "has the same texels as " + place_of(material, b) + ": " +
                               std::string(role_name(a.role)) + " and " + std::string(role_name(b.role)) +
-                              " are seldom one map",
-                          "re-export the two maps: one of them was written twice"});
+                              " are rarely the same map",
+                          "export both maps again: one of them was written twice"});
     }
 }
 

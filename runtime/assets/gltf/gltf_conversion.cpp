@@ -80,7 +80,7 @@ class GltfConversion {
     if (!version) throw input_error(source_.context + ": has no asset.version (it is not a glTF file)");
     if (!version->starts_with("2."))
       throw input_error(source_.context + ": is glTF " + plain(*version, 20) +
-                        ", but only glTF 2 can be read");
+                        ", but only glTF 2 can be read (convert it to glTF 2 first)");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
         result_.asset.warnings.push_back(

@@ -158,7 +158,7 @@ class SpecGlossToCore final : public GltfDirection {
       if (options_.folds_specular && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else
-        report.warnings.push_back(name + ", ignored beside spec-gloss, takes effect from now on");
+        report.warnings.push_back(name + ", ignored in spec-gloss materials, takes effect from now on");
     }
     return edit;
   }

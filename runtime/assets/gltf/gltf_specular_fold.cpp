@@ -30,7 +30,8 @@ class SpecularFold final : public GltfDirection {
     // In these extensions the index also bends light, and core has only one index.
     for (const char* name : {"KHR_materials_volume", "KHR_materials_dispersion"})
       if (material["extensions"][name])
-        throw input_error("has " + std::string(name) + ", which needs KHR_materials_ior (leave it as it is)");
+        throw input_error("has " + std::string(name) +
+                          ", which needs KHR_materials_ior (convert it without --fold-specular)");
     GltfMaterial read = read_material(material, GltfWorkflow::kDielectric, report.warnings);
     const CoreTexts texts = maker_.convert(read, report);
     report.residual = texts.residual;

@@ -168,7 +168,7 @@ void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason
     texture.info.transform = place.transform;
     if (&texture != &model && !common->repeats)
       warnings.push_back("its " + texture.name() + " texture is drawn onto the image of its " + model.name() +
-                         " texture, which is right where texture coordinates are within 0 to 1");
+                         " texture, which is correct if texture coordinates are within 0 to 1");
   }
 }
 

@@ -140,7 +140,7 @@ std::string MtlImages::require(const MtlMap& map, std::vector<std::string>& warn
                       ", which is not applied (bake it into the image)");
   if (resources_ == nullptr) throw input_error(name + ": cannot be read, because no files can be");
   const std::optional<std::string> path = find(map.file, warnings);
-  if (!path) throw input_error(name + ": is not there (put it beside the MTL file)");
+  if (!path) throw input_error(name + ": was not found (put it next to the MTL file)");
   return *path;
 }
 

@@ -301,7 +301,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   if (is_black && surface.diffuse_map) {
     // In a real material, Kd 0 would make the map black. Exporters write this number because the map replaces
     // it.
-    warnings.emplace_back("Kd is 0 beside map_Kd, and counts as 1");
+    warnings.emplace_back("Kd is 0, which would make map_Kd black: 1 is used instead");
     surface.diffuse = kUnused;
   }
   surface.is_metal_rough = has_metal_rough_lines(document, block);
@@ -361,7 +361,7 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
   factors.diffuse = surface.diffuse.value_or(
       has_map ? white : std::array<double, 3>{kDiffuseDefault, kDiffuseDefault, kDiffuseDefault});
   if (!surface.diffuse && !has_map)
-    warnings.push_back("has no Kd, which then counts as " + number_text(kDiffuseDefault));
+    warnings.push_back("has no Kd: " + number_text(kDiffuseDefault) + " is used instead");
   factors.specular = surface.specular.value_or(surface.specular_map ? white : black);
   const bool is_shaded_by_specular = surface.illumination.value_or(2.0) >= 2.0;
   const bool is_bright = std::ranges::any_of(factors.specular, [](double value) { return value > 0.0; });
@@ -370,14 +370,14 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
     throw input_error("has map_Ns but no Ns, which the map multiplies (add a line Ns)");
   if (surface.exponent.value_or(0.0) <= 0.0) {
     warnings.push_back((surface.exponent ? "has Ns " + number_text(*surface.exponent) : "has no Ns") +
-                       ", so its Ks counts as no highlight (write the exponent of the highlight as Ns)");
+                       ", so its Ks gives no highlight (write the exponent of the highlight as Ns)");
     return reflection;
   }
   factors.exponent = *surface.exponent;
   if (factors.exponent < LegacyMaterial::kLeastExponent) {
     factors.exponent = LegacyMaterial::kLeastExponent;
     warnings.push_back("Ns " + number_text(*surface.exponent) +
-                       ": the highlight covers the whole surface, and counts as Ns 1");
+                       ": the highlight covers the whole surface, and 1 is used instead");
   }
   reflection.has_highlight = true;
   return reflection;

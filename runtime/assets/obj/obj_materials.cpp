@@ -129,7 +129,7 @@ Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& repor
   Json material = Json::object();
   if (!name.name.empty()) material["name"] = utf8_name(name.name);
   material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
-  if (name.is_given) report.warnings.push_back("is in no MTL file that is there, and counts as white");
+  if (name.is_given) report.warnings.push_back("is in no MTL file that was found, and becomes white");
   return material;
 }
 
@@ -224,7 +224,7 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   draft.roughness = numbers.roughness;
   set_specular_level(draft);
   if (!surface.roughness && !surface.roughness_map)
-    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
+    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr): 1 is used");
   const MtlMap* model = nullptr;
   if (const auto pixels = packed_metal_rough(draft, &model))
     draft.core["metallicRoughnessTexture"] = textures_.info(
@@ -454,7 +454,7 @@ void ObjMaterials::set_emission(MaterialDraft& draft) {
   const bool is_dark = std::ranges::all_of(factor, [](double value) { return value <= 0.0; });
   if (cover.emissive_map) {
     if (cover.has_emissive && is_dark)
-      draft.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
+      draft.report.warnings.push_back("Ke is 0, which would make map_Ke black: 1 is used instead");
     if (is_dark) factor = kWhite;
     const std::size_t image =
         textures_.add_file(draft.library.images, *cover.emissive_map, draft.report.warnings);

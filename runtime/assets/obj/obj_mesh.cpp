@@ -110,7 +110,7 @@ class ObjStream final : public std::streambuf {
     if (fans_ > 0)
       scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
                                 std::to_string(kMostClippedCorners) +
-                                " corners cut as fans, which is right where they are convex");
+                                " corners cut as fans, which is only correct if they are convex");
   }
 
   // Return the name for a number. Number 0 is for faces without a name.
@@ -453,8 +453,7 @@ class ObjReader {
     const bool is_read =
         tinyobj::LoadObj(&attributes_, &shapes_, &none, &warning, &fault, &stream, &materials, true, false);
     if (!is_read)
-      throw input_error(context_ +
-                        ": a face cannot be read (its indices must be whole numbers other than 0)");
+      throw input_error(context_ + ": a face cannot be read (its indices must be integers other than 0)");
     if (warning.find("invalid vertex index") != std::string::npos ||
         warning.find("out of bounds") != std::string::npos)
       throw input_error(context_ +

@@ -74,5 +74,5 @@ TEST_CASE("reach: a fit of another table is refused", "[study]") {
   ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
   options.fits.front().table.comments.clear();
   CHECK_THROWS_WITH(study_reach(*make_builtin_renderer(), options),
-                    Catch::Matchers::Contains("does not name an objective"));
+                    Catch::Matchers::Contains("does not state an objective"));
 }

@@ -137,7 +137,8 @@ TEST_CASE("table: a file is plain CSV; how it was made is beside it, and read ba
   CHECK(whole_text(parse_table_file(rows, path), rows) == "# source: a/b\n# note: c\": d\n" + rows);
   write_file(path, rows + "0.2,0.2,0.3,0.4,0,ok\n");
   REQUIRE(read_table(path).remarks.size() == 1);
-  CHECK_THAT(read_table(path).remarks[0], Catch::Contains("t.csv.json, which tells its models, has changed"));
+  CHECK_THAT(read_table(path).remarks[0],
+             Catch::Contains("t.csv.json, which states its models, does not belong to this table"));
   write_file(path, "# source: c/d\n" + rows);  // a table with comments ignores FILE.json
   CHECK(read_table(path).source.model == "c/d");
   CHECK_THROWS_WITH(require_new_table(path, false),

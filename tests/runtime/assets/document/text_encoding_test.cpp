@@ -72,7 +72,7 @@ TEST_CASE("Half a character of UTF-16 is refused with its place", "[assets]") {
       "\xff\xfe" + std::string((std::size_t{1} << 20) - 4, 'x') + std::string("\x3d\xd8x\0", 4);
   CHECK(decoding_refusal(edge) == refusal((1 << 20) - 2));
   CHECK_THROWS_WITH(encoded("caf\xe9", TextEncoding::kUtf16Big, "file"),
-                    "file: names a file whose name UTF-16 cannot hold (rename the file)");
+                    "file: refers to a file whose name UTF-16 cannot store (rename the file)");
 }
 
 TEST_CASE("An MTL file of UTF-16 is edited as one of UTF-8", "[assets]") {

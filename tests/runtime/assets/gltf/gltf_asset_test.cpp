@@ -100,7 +100,7 @@ TEST_CASE("What cannot be represented is said", "[assets]") {
         std::vector<std::string>{
             "loses extensions (ACME) of KHR_materials_pbrSpecularGlossiness",
             "loses odd of KHR_materials_pbrSpecularGlossiness",
-            "KHR_materials_clearcoat, ignored beside spec-gloss, takes effect from now on"});
+            "KHR_materials_clearcoat, ignored in spec-gloss materials, takes effect from now on"});
   CHECK(failure(specgloss_text(R"({"diffuseFactor":[1,1,1]})")) ==
         "diffuseFactor: expected a list of 4 numbers, found [1,1,1]");
   CHECK(failure(specgloss_text(R"({"glossinessFactor":"a"})")) ==
@@ -148,7 +148,7 @@ TEST_CASE("Containers keep their chunks", "[assets]") {
   CHECK(converted == glb_bytes(converted_bytes(specgloss_text("{}")), binary + own));
   CHECK(converted_bytes(converted) == converted);
   CHECK(convert_gltf(MemorySource(bytes), "a").warnings ==
-        std::vector<std::string>{"its JSON is padded with zeros where glTF requires spaces"});
+        std::vector<std::string>{"its JSON is padded with zeros instead of the spaces that glTF requires"});
 }
 
 TEST_CASE("Damaged containers are refused", "[assets]") {
@@ -169,7 +169,8 @@ TEST_CASE("Damaged containers are refused", "[assets]") {
   CHECK(asset_failure(lies) == "a.glb: its first chunk is not JSON");
   CHECK(asset_failure("glTF" + four_bytes(2) + four_bytes(12)) == "a.glb: has no JSON chunk");
   CHECK(asset_failure("{}") == "a.glb: has no asset.version (it is not a glTF file)");
-  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") == "a.glb: is glTF 1.0, but only glTF 2 can be read");
+  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") ==
+        "a.glb: is glTF 1.0, but only glTF 2 can be read (convert it to glTF 2 first)");
   CHECK(asset_failure(R"({"asset":{"version":"2.0"},"materials":{}})") ==
         "a.glb: materials: expected a list");
 }

@@ -187,14 +187,12 @@ TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
         .materials.at(0)
         .failure;
   };
-  CHECK(
-      failures(R"("KHR_materials_clearcoat":{})") ==
-      "has KHR_materials_clearcoat, which viewers ignore beside spec-gloss (remove it, or leave the material "
-      "as it is)");
+  CHECK(failures(R"("KHR_materials_clearcoat":{})") ==
+        "has KHR_materials_clearcoat, which viewers ignore in spec-gloss materials (remove it, or keep the "
+        "material unchanged)");
   CHECK(failures(R"("ACME_fur":{})") ==
-        "has ACME_fur, which is unknown here and may have no meaning beside spec-gloss (remove it, or leave "
-        "the "
-        "material as it is)");
+        "has ACME_fur, which is unknown and may have no effect in spec-gloss materials (remove it, "
+        "or keep the material unchanged)");
   CHECK(failures(R"("KHR_materials_ior":{"ior":0.5})") == "ior 0.5: expected 0 or a number from 1");
   CHECK(failures(R"("KHR_materials_emissive_strength":{})").empty());
   const std::string text = file_with(
@@ -276,7 +274,7 @@ TEST_CASE("What folding leaves alone", "[assets]") {
           kDielectrics)),
       "file", folding());
   CHECK(result.materials[0].failure ==
-        "has KHR_materials_volume, which needs KHR_materials_ior (leave it as it is)");
+        "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --fold-specular)");
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.count(MaterialState::kUntouched) == 2);
   // Two materials still use the index. The other extension is removed, because nothing uses it any more.

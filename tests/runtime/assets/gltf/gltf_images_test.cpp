@@ -231,11 +231,12 @@ TEST_CASE("A material whose image is missing fails, and others go on", "[assets]
       textured(R"("diffuseTexture":{"index":2})") + "," + textured(R"("diffuseTexture":{"index":3})") +
       R"(],"textures":[{"source":0},{"source":1},{"extensions":{"KHR_texture_basisu":{"source":2}}},{}],)"
       R"("images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"https://example.org/c.ktx2"}]})";
-  CHECK(failures_of(text, kCoreOptions, resources) ==
-        std::vector<std::string>{
-            "", "a.png: is not there", "image 1: is no image",
-            "https://example.org/c.ktx2: is not in a file here (download it beside the asset)",
-            "texture 3 has no image that is known here"});
+  CHECK(
+      failures_of(text, kCoreOptions, resources) ==
+      std::vector<std::string>{
+          "", "a.png: is not there", "image 1: is no image",
+          "https://example.org/c.ktx2: is a remote address (download the file into the folder of the asset)",
+          "texture 3 has no image that is known here"});
 }
 
 TEST_CASE("The best image that can be decoded is taken", "[assets]") {

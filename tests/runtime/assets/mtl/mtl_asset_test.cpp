@@ -288,7 +288,7 @@ TEST_CASE("Maps that cannot be converted fail with a reason", "[assets]") {
   AssetOptions enlarging;
   enlarging.enlarges = true;
   CHECK(failure("map_Kd d.png\nmap_Ks s.png\n", enlarging).empty());
-  CHECK(failure("map_Kd gone.png\n") == "gone.png: is not there (put it beside the MTL file)");
+  CHECK(failure("map_Kd gone.png\n") == "gone.png: was not found (put it next to the MTL file)");
   CHECK(failure("map_Kd x.png\n") == "x.png: is no image");
   CHECK(failure("map_Kd -t .1 d.png\n") == "d.png: has -t, which is not applied (bake it into the image)");
   CHECK(failure("map_Kd -cc on d.png\n") ==

@@ -301,11 +301,11 @@ TEST_CASE("Maps of strength and exponent are converted, and shared", "[assets]")
 TEST_CASE("What is missing is said, and the rest is there", "[assets]") {
   const MadeScene none = made("mtllib gone.mtl\n" + kTriangle + "usemtl x\nf 1 2 3\n");
   CHECK(none.conversion.warnings ==
-        std::vector<std::string>{"mtllib gone.mtl: is not there; its materials count as white"});
+        std::vector<std::string>{"mtllib gone.mtl: was not found; its materials become white"});
   CHECK(none.core()["metallicFactor"].raw() == "0");
   const MadeScene texture = of_material("Kd .5 .5 .5\nmap_Kd gone.png\n");
   CHECK(texture.conversion.materials[0].state == MaterialState::kFailed);
-  CHECK(texture.conversion.materials[0].failure == "gone.png: is not there (put it beside the MTL file)");
+  CHECK(texture.conversion.materials[0].failure == "gone.png: was not found (put it next to the MTL file)");
   CHECK(texture.conversion.changed);
   CHECK(texture.core()["baseColorFactor"].raw() == "[0.5,0.5,0.5,1.0]");
   PlainResources resources;
