@@ -47,8 +47,8 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
       continue;
     AnyFit fit = load_any_fit(entry.path());
     if (entry.path().stem() != fit_id(fit))
-      throw input_error(entry.path().string() + ": holds the fit " + fit_id(fit) +
-                        " (rename the file after it)");
+      throw input_error(entry.path().string() + ": contains the fit " + fit_id(fit) +
+                        " (rename the file to " + fit_id(fit) + ".json)");
     loaded.add(std::move(fit));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };

@@ -170,7 +170,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& context) {
     root[key].list(0, [&](const Field& entry) {
       read(entry);
       if (items.size() > kMostItems)
-        root.fail("has more than " + std::to_string(kMostItems) + " items, the most that are read");
+        root.fail("has more than " + std::to_string(kMostItems) + " items, which is the limit");
       return 0;
     });
   };

@@ -101,8 +101,9 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
 
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
-    throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
-                                               : "no fits given (give fits, or use --all)");
+    throw Error(ErrorKind::kUsage, options.all
+                                       ? "--all: cannot be used together with fits (remove --all or the fits)"
+                                       : "no fits given (give fits, or use --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");

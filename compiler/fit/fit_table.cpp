@@ -21,7 +21,7 @@ namespace {
 void require_models(const Table& table) {
   if (table.source.model.empty() || table.target.model.empty())
     throw input_error(table.name +
-                      ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
+                      ": does not state its models (add `# source: ...` and `# target: ...` lines, or use "
                       "--source and --target)");
   for (const ModelSide& side : {table.source, table.target}) {
     if (!is_valid_model(side.model))

@@ -72,7 +72,7 @@ std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelD
     if (std::none_of(all.begin(), all.end(),
                      [&](const Varied& varied) { return varied.parameter.name == given.first; }))
       throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
-                                         " has a range but does not vary (add it to the varied parameters)");
+                                         " has a range but does not vary (add --vary " + given.first + ")");
   return all;
 }
 

@@ -49,7 +49,7 @@ void measure_widths(ModelDescription* model) {
     throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
                                        " is invalid for the convention " +
                                        std::string(encoding_name(model->roughness)) +
-                                       " (name another one: " + roughness.name + ":CONVENTION)");
+                                       " (choose another convention: " + roughness.name + ":CONVENTION)");
   model->alpha = alphas;
 }
 

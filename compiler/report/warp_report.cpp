@@ -267,7 +267,7 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
 
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html")
-    throw Error(ErrorKind::kUsage, "--report: " + path.string() + ": the file name must end with .html");
+    throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,

@@ -134,7 +134,7 @@ void read_brdf_list(TabulatedSet& set) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (columns.size() == kMostBrdfs)
       throw input_error(set.table.string() + ": has more than " + std::to_string(kMostBrdfs) +
-                        " BRDFs, the most that are read");
+                        " BRDFs, which is the limit (split the list)");
     if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
   }
   if (columns.empty())

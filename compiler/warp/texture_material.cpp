@@ -34,7 +34,7 @@ FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
   if (found.sets.size() != 1)
     throw input_error(
         folder.string() + ": contains " + std::to_string(found.sets.size()) +
-        " texture sets, but must contain exactly one (name the maps diffuse, specular and roughness)");
+        " texture sets, but must contain exactly one (rename the maps to diffuse, specular and roughness)");
   if (found.sets[0].state == SetState::kFaulty)
     throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
                                                     : found.sets[0].remarks[0]);

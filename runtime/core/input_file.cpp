@@ -136,7 +136,7 @@ std::optional<std::string_view> InputLines::next() {
     searched = buffer_.size();
     if (searched > kLongest)
       throw input_error(file_.path().string() + ": line " + std::to_string(number_ + 1) + " has more than " +
-                        std::to_string(kLongest >> 20) + " MB, the most that is read of a line");
+                        std::to_string(kLongest >> 20) + " MB, which is the limit for a line");
     buffer_.resize(searched + kPiece);
     const std::size_t count = file_.read(end_ + searched, buffer_.data() + searched, kPiece);
     buffer_.resize(searched + count);

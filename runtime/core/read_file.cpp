@@ -18,9 +18,9 @@ namespace {
 
 [[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
   const bool megabytes = largest >= 1 << 20;
-  throw Error(ErrorKind::kInput,
-              path.string() + ": has more than " + std::to_string(megabytes ? largest >> 20 : largest) +
-                  (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
+  throw Error(ErrorKind::kInput, path.string() + ": has more than " +
+                                     std::to_string(megabytes ? largest >> 20 : largest) +
+                                     (megabytes ? " MB" : " bytes") + ", which is the limit for such a file");
 }
 
 // Returns true if the caller's shell has opened the file that this name leads to.

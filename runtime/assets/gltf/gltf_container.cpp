@@ -69,7 +69,7 @@ void require_short(std::uint64_t size, const std::string& context) {
   if (size > kLongestSpannedText)
     throw input_error(context + ": has " + std::to_string(size >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestSpannedText >> 20) +
-                      " MB are read (keep buffers and images in files of their own)");
+                      " MB can be read (store buffers and images in separate files)");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ class GltfConversion {
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
         result_.asset.warnings.push_back(
             "requires " + plain(name) +
-            ", which is unknown here: it is kept, and its meaning for materials is not");
+            ", which texremap does not know: it stays, but may not fit the converted materials");
   }
 
   // Finds the materials that animations change.

@@ -470,7 +470,7 @@ void ObjMaterials::set_normals(MaterialDraft& draft) {
   if (!map) return;
   if (!draft.cover.normal_map && !holds_normals(*draft.library.images.load(*bump, draft.report.warnings))) {
     draft.report.warnings.push_back(
-        "loses its bump map: it is a map of heights, and glTF has maps of normals");
+        "loses its bump map, because it holds heights and glTF only supports normal maps");
     return;
   }
   Json info = textures_.info(textures_.add_file(draft.library.images, *map, draft.report.warnings), *map);

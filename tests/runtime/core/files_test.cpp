@@ -80,7 +80,7 @@ TEST_CASE("read file: what is larger than a limit is refused, whatever its size 
   write_file(path, "12345");
   CHECK(read_file(path, 5) == "12345");
   CHECK(refusal([&] { read_file(path, 4); }) ==
-        path.string() + ": has more than 4 bytes, the most that is read of such a file");
+        path.string() + ": has more than 4 bytes, which is the limit for such a file");
   CHECK(refusal([] {
           read_file("/proc/self/maps", 10);
         }).starts_with("/proc/self/maps: has more than 10 bytes"));

@@ -130,8 +130,8 @@ TEST_CASE("A failed material keeps the extension in its lists", "[assets]") {
   CHECK(result.text.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
         std::string::npos);
   CHECK(result.warnings ==
-        std::vector<std::string>{"requires A, which is unknown here: it is kept, and its meaning for "
-                                 "materials is not"});
+        std::vector<std::string>{"requires A, which texremap does not know: it stays, but may not fit the "
+                                 "converted materials"});
 }
 
 TEST_CASE("A file without spec-gloss is left alone", "[assets]") {

@@ -175,7 +175,7 @@ TEST_CASE("reports: 03 a bump map that holds normals is a normal map", "[assets]
   for (const std::string name : {"h.png", "grey.png"}) {
     const Scene heights = scene_of(start + "map_Bump " + name + "\n", resources);
     CHECK_FALSE(heights.material()["normalTexture"]);
-    CHECK(heights.warnings().find("map of heights") != std::string::npos);
+    CHECK(heights.warnings().find("holds heights") != std::string::npos);
   }
   // A statement for normals is preferred.
   const Scene both = scene_of(start + "map_Bump h.png\nnorm n.png\n", resources);
