@@ -21,7 +21,7 @@ import tempfile
 FOLDER = pathlib.Path(__file__).resolve().parent
 CAMERA = 3.0  # distance of the camera, at which the sphere touches the edges of the picture
 HEADLIGHT, ASIDE, FAR = (0, 3), (60, 3), (0, 6)  # lights, as angle and distance
-SAME = 2e-3  # larger differences are errors; half floats are exact to 5e-4
+SAME = 2e-3  # larger differences are errors; half floats differ by up to 5e-4
 WIDE = 0.5  # an alpha whose highlight has no sharp peak
 # Renderers differ by these factors in what their unit of light means.
 FACTORS = {"pi": math.pi, "1 / pi": 1 / math.pi, "4 pi": 4 * math.pi, "1 / (4 pi)": 0.25 / math.pi, "4": 4, "1 / 4": 0.25}
@@ -357,7 +357,7 @@ class ModelCheck:
             self.add("noise", "good", "none")
 
     def samples(self):
-        """Checks that the pixel centres of a picture are among those of a picture three times as large."""
+        """Checks that a picture has its pixel centres in common with a picture three times as large."""
         if self.noise:
             self.add("pixel centres", "remark", "not checked: the model has noise")
             return

@@ -14,7 +14,7 @@ import os
 import re
 
 os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")  # pictures must not depend on the graphics card
-os.environ.setdefault("LP_NUM_THREADS", "1")  # threads of llvmpipe; pictures do not depend on them
+os.environ.setdefault("LP_NUM_THREADS", "1")  # llvmpipe uses this many threads; pictures do not depend on them
 
 import MaterialX as mx  # noqa: E402
 import MaterialX.PyMaterialXGenGlsl as mx_glsl  # noqa: E402
@@ -216,8 +216,8 @@ def input_types(node):
 
 
 class Shader:
-    """A compiled surface shader. Its values are the inputs of its node, or of `entry`, the first node of a chain that
-    ends in its node."""
+    """A compiled surface shader. Its values are the inputs of its node. For a chain of nodes they are the inputs
+    of `entry`, the first node."""
 
     def __init__(self, node, entry=None):
         self.name = (entry or node).getCategory()

@@ -19,7 +19,8 @@ MODELS = [
                                             parameter("diffuse", "diffuse", 0, 1)]},
     {"name": "mitsuba3/beckmann", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                  parameter("diffuse", "diffuse", 0, 1)]},
-    # This has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the reflected light.
+    # This plastic has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the
+    # reflected light.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
                                                 parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},
@@ -84,7 +85,7 @@ def make_scene(model, values, scene):
 
 
 def scene_of(model, values, scene):
-    """Returns a scene. Scenes of conductors are kept and updated. Making the others again takes only a millisecond.
+    """Returns a scene. Scenes of conductors are kept and updated. Other scenes take only a millisecond to make."""
     """
     if model not in ("mitsuba3/ggx", "mitsuba3/beckmann"):
         return make_scene(model, values, scene)

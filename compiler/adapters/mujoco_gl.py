@@ -28,7 +28,7 @@ MODELS = [{"name": "mujoco/material", "precision": 2e-3, "parameters": [*LOBE, p
           {"name": "mujoco/material-linear", "precision": 2e-3, "parameters": [*LOBE, parameter("diffuse", "other", 0, 1, default=0)]}]
 
 STEP, STEPS = 4, 7  # ratio of light between exposures; in the first, white is a quarter
-CLAMPED = 250  # pixel values, of 255, from which a pixel may be clamped
+CLAMPED = 250  # a pixel with at least this value, of 255, may be clamped
 GRID = 512  # slices and stacks of the sphere
 GAMMA = 2.2
 
@@ -122,7 +122,7 @@ def render(request, values):
     if is_linear:
         specular, rgb = specular ** (1 / GAMMA), rgb ** (1 / GAMMA)
     shininess = values["exponent"][0] / 128
-    # Its specular is one number, so a color needs one picture per channel.
+    # MuJoCo's specular is one number, so a color needs one picture per channel.
     if len(set(specular)) == 1:
         picture = place.values(light["position"], specular[0], shininess, rgb)
     else:

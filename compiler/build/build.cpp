@@ -85,7 +85,8 @@ class Builder {
   }
 
  private:
-  // Removes vanished items from the lock. If its fit still exists, an item stays, so a later build prunes it.
+  // Removes vanished items from the lock. An item whose fit still exists stays, so that a later build can
+  // delete the fit.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_.items) kept.insert(item.id);

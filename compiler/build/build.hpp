@@ -27,7 +27,7 @@ struct BuildExecution {
 // A BuildSeconds says how long the thread of an item worked, in seconds. All numbers are 0 if the item was up
 // to date.
 struct BuildSeconds {
-  double sweep = 0.0;     // the table, or the samples of a network, including waiting for pictures
+  double sweep = 0.0;     // for the table, or the samples of a network; includes waiting for pictures
   double pictures = 0.0;  // the part of `sweep` spent waiting for the renderer
   double fit = 0.0;
   double lowering = 0.0;  // including its proofs
@@ -54,9 +54,9 @@ struct BuildResult {
   std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 
-// Makes every item of `manifest` whose recipe, inputs or files changed since the last build. It then makes
-// the data of all converters of the folder, and the report. Each item is swept and fitted by one thread. If
-// an item fails, the others are still made, but the data of converters and the report are not. Finished items
+// Makes every item of `manifest` whose recipe, inputs or files changed since the last build. It then writes
+// the data of all converters of the folder, and the report. One thread sweeps and fits each item. If an item
+// fails, the other items are still made, but the data of converters and the report are not. Finished items
 // stay. If a renderer is not installed, even `force` reuses a table made by the same recipe. Without such a
 // table, the item fails. Pruning deletes only files that nobody changed after the build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,

@@ -21,7 +21,7 @@ void FitFolder::add(AnyFit fit) {
 
 namespace {
 
-// A folder called `fits` counts only if it contains a fit.
+// A folder called `fits` is used only if it contains a fit.
 bool holds_fits(const std::filesystem::path& folder) {
   std::error_code failure;
   const std::filesystem::directory_iterator entries(folder, failure);

@@ -13,7 +13,7 @@ struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
-  ReachRecords reach;  // only for fits that are unchanged since they were measured
+  ReachRecords reach;  // holds only fits that are unchanged since they were measured
 
   void add(AnyFit fit);
 };

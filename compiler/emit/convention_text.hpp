@@ -7,7 +7,7 @@ namespace remap {
 
 struct ConventionText {
   const char* meaning;  // words for a comment in the header
-  const char* formula;  // formula of alpha for people; empty if the parameter is alpha
+  const char* formula;  // a formula of alpha for people; empty if the parameter is alpha itself
 };
 
 inline ConventionText convention_text(RoughnessEncoding convention) {

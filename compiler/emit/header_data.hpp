@@ -22,7 +22,8 @@ struct WarpHeader {
 struct HeaderEnd {
   std::string model;  // such as `mitsuba/ggx`
   std::string width;  // the name of its convention
-  // These are the members of the header's Input or Output. `width` is first of two, and last for materials.
+  // These are the members of the header's Input or Output. `width` comes first if there are two, and last for
+  // materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // for whole materials: `specular`, `plain`
 };

@@ -19,13 +19,13 @@ constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures sh
 constexpr double kNear = 1.01;         // largest ratio to the best error
 constexpr double kNearRmse = 0.05;     // difference in percent of the display's range
 constexpr double kNearRow = 0.01;      // difference of relative errors
-// This applies to copied numbers and is relative: the least visible difference (Weber's fraction).
+// Copied numbers are judged by this relative difference, the least that people see (Weber's fraction).
 constexpr double kNearCopy = 0.02;
 // These weigh the squared relative errors of rows in the refinement. Where pictures show a difference, rows
 // only have to stop a drift, so their weight is low. Highlights narrower than a pixel need a high weight.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
-constexpr std::size_t kMostRows = 60;  // for narrow rows, and for the others
+constexpr std::size_t kMostRows = 60;  // largest number of narrow rows, and of other rows
 
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;

@@ -11,7 +11,7 @@ namespace remap {
 
 struct Candidate {
   CandidateRecord record;  // the verdict is empty while it may be chosen
-  Fit fit;                 // with errors on the held-out rows; undefined if it failed
+  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
 };
 
 struct Comparison {

@@ -46,7 +46,7 @@ struct Notation {
   std::string (*number)(float) = nullptr;
   // Returns the text of a call from the texts of its terms.
   std::function<std::string(const std::string& function, const std::vector<std::string>& terms)> call;
-  std::string channel = {};  // follows the names of colors, such as `[c]`
+  std::string channel = {};  // follows the names of colors; for example `[c]`
 };
 // Returns a Notation::call that fills patterns: `$1` is the first term. If a function has no pattern, or its
 // pattern has no `$`, the call is written as `name(terms)`.

@@ -48,7 +48,7 @@ GraphWriter::Term GraphWriter::term_of(const Expression& expression, const std::
       return {ValueType::kNumber, "value=\"" + number_text(decimal_value(expression.number)) + "\""};
     case Op::kName:
       if (const auto input = inputs_.find(expression.name); input != inputs_.end()) {
-        // `source.NAME` without the dot and what precedes it
+        // Only NAME of `source.NAME` is the name in the graph.
         const std::string plain = expression.name.substr(expression.name.rfind('.') + 1);
         return {input->second, "interfacename=\"" + plain + "\""};
       }

@@ -144,7 +144,8 @@ class Judge {
       both += a * s;
       specular_2 += s * s;
     }
-    // The error is the root of a mean of squares. Its slope is the slope of the squares over twice the error.
+    // The error is the square root of a mean of squares. Its derivative is the derivative of the mean over
+    // twice the error.
     const double count =
         is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
     const double error = std::sqrt(square / count);
@@ -174,7 +175,7 @@ class Judge {
   std::vector<MaterialPictures> shown_;
 };
 
-// Makes the materials of a half: every other width, with the speculars of this half.
+// Makes the materials of one half. They have every other width, with the speculars of this half.
 template <typename Speculars>
 std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
                                    const Speculars& speculars) {

@@ -61,8 +61,8 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// Returns the first step whose domain a texel leaves, or that follows a step whose target is at its limit.
-// Returns steps.size() if the texel stays inside all. The domain rule handles specular below 0.
+// Returns the first step whose domain a texel leaves, or the step after a step whose target is at its limit.
+// Returns steps.size() if neither happens. The domain rule handles specular below 0.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)

@@ -32,8 +32,8 @@ struct Limits {
 // A PictureErrors states how much pictures differ from the source's pictures, either with converted or with
 // copied numbers. The fit did not use these materials and lights (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
-  double rmse = 0.0;      // of display values under environments, percent of the display's range
-  double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms
+  double rmse = 0.0;      // RMSE of display values under environments, in percent of the display's range
+  double relative = 0.0;  // error of linear radiance under a point light, relative to the RMS of the source
   bool operator==(const PictureErrors&) const = default;
 };
 struct JudgedPictures {
@@ -70,7 +70,7 @@ struct TableRecord {
 // A CandidateRecord is one row of the comparison by which `--model auto` decided
 // (compiler/fit/comparison.hpp).
 struct CandidateRecord {
-  std::string name;              // kind, and its shape
+  std::string name;              // the kind and its shape
   std::size_t number_count = 0;  // number of coefficients: the complexity
   ErrorFigures alpha, specular;  // errors on the held-out rows
   // These are root mean squares on the held-out rows, relative to the value, or to a fiftieth of 1 if that is

@@ -20,7 +20,7 @@ std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target);
 struct RoundTrip {
   double alpha_median = 0.0, alpha_p99 = 0.0;
   double specular_median = 0.0, specular_p99 = 0.0;
-  double share = 0.0;  // part of the grid that was used; 0: no figures
+  double share = 0.0;  // used part of the grid; 0: there are no figures
 };
 RoundTrip round_trip(const Fit& there, const Fit& back);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // numbers of samples to which a form is fitted
 constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
 constexpr double kLoosest = 10.0;     // times the tolerances
-constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second
+constexpr std::size_t kBoxes = 6000;  // a proof examines at most this many boxes, which takes about a second
 
 // Returns the shapes, fewest numbers first. A mapping that does not depend on t needs only one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {

@@ -39,7 +39,8 @@ double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
 Verdict verdict(const TexelTaylor& error, const Box& box) {
   const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
-  // If the remainder dominates the polynomial, the extents are meaningless, so halve both in turn.
+  // If the remainder dominates the polynomial, the extents are meaningless. The box is then halved along
+  // alpha and specular in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
   return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};

@@ -22,7 +22,7 @@ class Taylor {
 
  public:
   static constexpr int kCount = Variables == 1 ? Order + 1 : (Order + 1) * (Order + 2) / 2;
-  static constexpr double kUnit = 2.3e-16;  // above the unit roundoff of a double, with room
+  static constexpr double kUnit = 2.3e-16;  // slightly above the unit roundoff of a double
   static constexpr double kRoundUp = 1.0 + (kCount + 2) * kUnit;
 
   Taylor() = default;

@@ -29,7 +29,7 @@ struct MaterialInput {
 };
 
 struct MaterialModel {
-  std::string id;     // as in MaterialX' node definitions if it has the model: `open_pbr_surface`
+  std::string id;     // the node name in MaterialX if it has the model: `open_pbr_surface`
   std::string title;  // name and version
   std::vector<MaterialInput> inputs;
 
@@ -46,7 +46,7 @@ struct TranslationLine {
 struct Translation {
   const MaterialModel* from = nullptr;
   const MaterialModel* to = nullptr;
-  std::string variant;  // `_specular` for a second translation between the same models
+  std::string variant;  // such as `_specular`, for a second translation between the same models
   std::string comment;  // the comment at the top of the file
   std::vector<TranslationLine> lines;
 

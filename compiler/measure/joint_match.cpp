@@ -11,8 +11,9 @@
 namespace remap {
 namespace {
 
-constexpr double kJointRivalError = 1.01;    // see kRivalError in match.cpp
-constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
+constexpr double kJointRivalError = 1.01;  // see kRivalError in match.cpp
+// rivals whose parameters differ by less than this fraction are the same answer
+constexpr double kJointRivalDistance = 0.1;
 // A search ends at this relative change of the squared error. Rivals are compared with the answer only to one
 // percent, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;

@@ -28,10 +28,10 @@ class Matcher {
   // `basis` has at least one picture, of as many numbers as `weights`.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights);
 
-  // Finds the best match. It is kUnstable if another width or specular gives as good a picture. `minima`
-  // holds the bank nodes to start from and receives the nodes of the minima found. If it is empty, the whole
-  // bank is searched. Materials of similar specular share their minima, so passing them on saves most of the
-  // search.
+  // Finds the best match. It is kUnstable if another width or specular gives an equally good picture.
+  // `minima` holds the bank nodes where the search starts, and receives the nodes of the minima found. If it
+  // is empty, the whole bank is searched. Materials of similar specular have the same minima, so it saves
+  // most of the search to pass `minima` from one to the next.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:

@@ -13,7 +13,7 @@ namespace remap {
 
 enum class Weighting {
   kUniform,   // L2 of linear radiance (the paper)
-  kRelative,  // w = cos_view / (I / max(I) + floor), from only the source picture I
+  kRelative,  // w = cos_view / (I / max(I) + floor), where I is the source picture
 };
 
 inline constexpr NamedValues<Weighting, 2> kWeightings = {
@@ -59,8 +59,8 @@ struct PictureWeights {
 };
 
 // Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`
-// pixels for each light, followed by its mean if the objective compares means; max(I) is taken for each
-// picture separately.
+// pixels for each light. Each picture is followed by its mean if the objective compares means. max(I) is the
+// maximum of one picture.
 PictureWeights squared_weights(const Objective& objective, std::span<const float> source,
                                std::span<const float> view_cosines);
 

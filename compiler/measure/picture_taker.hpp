@@ -20,7 +20,8 @@ struct RoleValues {
   double alpha = 0.0;
   double specular = 0.0;
   double diffuse = 0.0;
-  std::map<std::string, double> others;  // kOther parameters by name; missing ones keep their standard values
+  // values of kOther parameters by name; missing parameters have their standard values
+  std::map<std::string, double> others;
 
   RoleValues() = default;
   RoleValues(double alpha_value, double specular_value, double diffuse_value,
@@ -55,8 +56,9 @@ class PictureTaker {
  public:
   PictureTaker(const Renderer& renderer, const Objective& objective, int resolution, int samples_per_axis);
 
-  // Renders `model` under each light in turn: pixel_count() floats each, and the mean. `specular` is the
-  // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
+  // Renders `model` under each light in turn. Each picture has pixel_count() floats and the mean if the
+  // objective compares means. `specular` is the model's own parameter. Throws kInput for a picture of another
+  // size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
   // Renders with a canonical specular, clamped to the model's range, and applies the exposure.

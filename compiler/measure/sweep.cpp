@@ -26,8 +26,9 @@ namespace {
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // This resolution suffices, because the law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
-constexpr double kLeastProbedAlpha = 0.1;  // or the model's least alpha, if that is larger
-// This many widths have their spheres compared, spread over the widths of a table. Each uses the usable row
+// smallest probed alpha, or the model's least alpha if that is larger
+constexpr double kLeastProbedAlpha = 0.1;
+// The spheres of this many widths are compared, spread over the widths of a table. Each uses the usable row
 // whose specular1 is closest to half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
 

@@ -113,7 +113,8 @@ void BankPictures::add_at_width(std::span<const RoleValues> points, const std::v
                         {std::vector<float>(pixels), std::vector<float>(pixels),
                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}});
   }
-  std::vector<PixelBlock> interpolated(members), interpolated_rise(members);  // shared by the points
+  // these blocks are used for all points
+  std::vector<PixelBlock> interpolated(members), interpolated_rise(members);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);
     for (std::size_t k = 0; k < members; ++k) {

@@ -18,7 +18,7 @@ namespace remap {
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0
-  double pole = 0.0;   // >= 0; if 0, t = value; outputs have no pole
+  double pole = 0.0;   // >= 0; with 0, t is the value; outputs have no pole
   bool operator==(const Scaling&) const = default;
 };
 

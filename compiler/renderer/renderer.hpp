@@ -41,8 +41,8 @@ struct ModelDescription {
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // the picture depends on the seed
-  bool is_external = false;  // rendered by another program: pictures are expensive, claims are checked
-  double precision = 0.0;    // relative error of a pixel if larger than a float's, otherwise 0
+  bool is_external = false;  // another program renders it: pictures are expensive, and its claims are checked
+  double precision = 0.0;    // relative error of a pixel; 0 if it is no larger than the error of a float
 
   bool has(ParameterRole role) const;
   // Returns the parameter. Throws kUsage if the model has no parameter of that role.

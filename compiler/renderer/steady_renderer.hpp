@@ -13,7 +13,7 @@ namespace remap {
 struct Noise {
   double level = 0.0;    // RMS difference from the mean over seeds, relative to the RMS of the picture
   double largest = 0.0;  // largest difference of one pixel, relative to the brightest pixel
-  int pictures = 1;      // count that reduces the level to kSteadyNoise
+  int pictures = 1;      // number of pictures that reduces the level to kSteadyNoise
 };
 
 // A match sums over thousands of pixels, so this level changes it by about 1e-4.

@@ -184,7 +184,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // the first fit; models, table and domain are the same for all
+  const Fit& fit_;  // first of the fits, which all have the same models, table and domain
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel

@@ -63,7 +63,7 @@ struct PreviewFigure {
 };
 
 struct Preview {
-  std::vector<double> specular;        // the source's specular, as rendered
+  std::vector<double> specular;        // source specular that was rendered
   std::vector<PreviewFigure> figures;  // sorted by light, then shape, then alpha
   Image sheet;  // a row for each figure; columns: source, numbers copied, numbers converted; a margin of a
                 // twentieth of the resolution around each picture

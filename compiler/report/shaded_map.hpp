@@ -18,7 +18,7 @@ namespace remap {
 // shaded before they are averaged.
 struct PictureGrid {
   int width = 0, height = 0;  // width and height of the picture
-  int samples = 1;            // along each side of a pixel
+  int samples = 1;            // number of samples along each side of a pixel
   std::vector<std::uint32_t>
       texels;  // indices into the map, row-major, (width * samples) x (height * samples)
 

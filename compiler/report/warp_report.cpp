@@ -23,7 +23,7 @@ constexpr DisplayColor kGrey = {0.72f, 0.72f, 0.72f};
 // A PlottedPoints holds points of one kind. Later points cover earlier ones.
 struct PlottedPoints {
   Points positions;                  // the first two coordinates are drawn; rows with NaN are skipped
-  std::vector<DisplayColor> colors;  // one per point, or one for all
+  std::vector<DisplayColor> colors;  // one color per point, or one color for all points
   double radius = 1.0;               // in pixels
 };
 

@@ -40,7 +40,7 @@ struct EnvironmentsOptions : SphereSampling {
   std::vector<Fit> fits;                  // fits for kShipped
   int match_resolution = 512;             // width and height of the pictures of the matches
   bool least_error = false;               // whether to compare kBest, too
-  std::optional<double> sheet_alpha;      // one of `alphas`, whose contact sheets are drawn
+  std::optional<double> sheet_alpha;      // an alpha in `alphas`, for which contact sheets are drawn
 };
 
 // A Conversion holds the target parameters for one source material.

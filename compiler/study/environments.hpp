@@ -23,7 +23,7 @@ struct EnvironmentComparison {
   double rmse = 0.0;            // over all channels, percent of the display range
   double ssim = 0.0;            // for luma; 1 for equal pictures
   double energy = 0.0;          // mean linear luminance, target / source - 1
-  double squared_noise = 0.0;   // mean square sampling error of the difference, display values
+  double squared_noise = 0.0;   // mean square sampling error of the difference, in display values
 };
 
 struct EnvironmentsResult {

@@ -76,7 +76,8 @@ class TargetWidths {
   const PictureTaker& taker_;
   ProbedModel target_;
   std::vector<double> alphas_;
-  mutable std::vector<std::vector<std::vector<float>>> pictures_;  // pictures of each width
+  // pictures of each width, empty until they are rendered
+  mutable std::vector<std::vector<std::vector<float>>> pictures_;
   mutable std::deque<std::once_flag> are_rendered_;
 };
 

@@ -30,7 +30,7 @@ std::size_t progress_steps(const ReachOptions& options);
 // objective of the fit's table weighs them.
 struct ReachedMaterial {
   double alpha = 0.0, specular = 0.0;                // the source's parameters
-  double target_alpha = 0.0, target_specular = 0.0;  // found by the converter
+  double target_alpha = 0.0, target_specular = 0.0;  // converted parameters
   double error = 0.0;                                // error of the converter's result
   double least_alpha = 0.0, least_specular = 0.0;    // the target's best parameters
   double least_error = 0.0;

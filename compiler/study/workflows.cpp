@@ -203,7 +203,7 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// Converts to the specular workflow by `there`, then back by the method.
+// Converts to the specular workflow by `there`, then back by `method`.
 RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversion& there, FamilyKind kind,
                            std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);

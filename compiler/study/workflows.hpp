@@ -61,7 +61,8 @@ struct WorkflowPictures {
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<WorkflowMethod> methods;
-  std::vector<std::vector<WorkflowPictures>> pictures;  // [method][material]; lights: environments, headlight
+  // [method][material]; lights are the environments, then the headlight
+  std::vector<std::vector<WorkflowPictures>> pictures;
 };
 
 inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
@@ -88,7 +89,7 @@ std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult
 
 // A FamilyKind is the distribution of the materials and the storage of the specular maps.
 enum class FamilyKind {
-  kExact,    // base color and metallic uniform; floats
+  kExact,    // base color and metallic are uniform floats
   kStored,   // like kExact, stored with 8 bits in sRGB
   kAuthored  // like assets: base color uniform in sRGB, metallic 0 or 1 in four of five; 8 bits
 };

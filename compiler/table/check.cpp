@@ -17,7 +17,8 @@ namespace {
 // suffice.
 constexpr std::size_t kFewestAlphas = 6;
 constexpr std::size_t kFewestGridRows = 12;
-// Rows of the same sample contradict each other if they differ by more, in alpha or relative in specular.
+// Rows of the same sample contradict each other if their targets differ by more than this. Alpha differs
+// absolutely, specular relatively.
 constexpr double kSameValue = 1e-6;
 // A step of the grid is a gap if it is this many times the median step.
 constexpr double kGapFactor = 3.0;

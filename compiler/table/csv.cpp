@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kShownText = 80;  // bytes of a quoted text
+constexpr std::size_t kShownText = 80;  // messages show at most this many bytes of a text
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);

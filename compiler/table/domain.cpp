@@ -11,12 +11,12 @@
 namespace remap {
 namespace {
 
-// Up to this many different alpha1 have a column each. If there are more, neighbours share a column until it
-// has kRowsAColumn rows.
+// If alpha1 has at most this many different values, each value is a column. Otherwise neighbours share a
+// column until it has kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// In scattered rows, a column that ends within this fraction of the highest specular1 is treated as if it
-// reached it.
+// In scattered rows, a column is treated as complete if it ends within this fraction of the highest
+// specular1.
 constexpr double kSameReach = 0.9;
 // Widths that differ by less than this fraction, a few units of a table's last digit, are treated as one.
 constexpr double kSameWidth = 1e-9;
@@ -39,7 +39,7 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
 
 // A Column holds rows of similar width.
 struct Column {
-  double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
+  double first = INFINITY, last = -INFINITY;  // smallest and largest alpha1 of its usable rows
   double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
   double reach = 0.0;                         // highest usable specular1 below `cut`
   bool is_cut() const { return std::isfinite(cut); }

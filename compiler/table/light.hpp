@@ -29,7 +29,7 @@ struct LightRemark {
   std::string text;       // `what is wrong (what to do)`, with the numbers
 };
 
-// A scale or a difference beyond this value is reported. Noise and rounding of renderers stay below.
+// A scale or difference beyond this value is reported. Noise and rounding errors of renderers are smaller.
 inline constexpr double kSaidLightChange = 0.01;
 // Beyond this value, the scale changes specular by more than a fit's errors and than most people see.
 inline constexpr double kMostLightChange = 0.05;

@@ -29,7 +29,7 @@ enum class RowStatus {
 
 std::string_view status_name(RowStatus status);
 
-// Parses the status in a cell of `line`. Throws kInput with its place for an unknown word.
+// Parses the status in a cell of `line`. For an unknown word, throws kInput with the place of the cell.
 RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell);
 
 struct TableRow {
@@ -49,7 +49,7 @@ struct Table {
   Comments comments;
   ModelSide source;
   ModelSide target;
-  bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
+  bool has_diffuse = false;  // true if rows have diffuse1 and diffuse2
   bool has_error = true;     // if false, the errors of its rows are NaN and are not written
   std::vector<TableRow> rows;
   Limits limits;                     // from the comments (find_limits)
@@ -78,8 +78,9 @@ inline constexpr const char* kSpheresComment = "sphere_ssim";
 
 // A ColumnMap holds the columns and models of a foreign table.
 struct ColumnMap {
-  std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same name
-  ModelSide source;                            // empty model: taken from the comments
+  // maps an own name to the name in the file; a name that is missing is the same in both
+  std::map<std::string, std::string> columns;
+  ModelSide source;  // if the model is empty, the comments of the file give it
   ModelSide target;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
-constexpr std::size_t kSlowTexels = 4096;  // limit of texels for features by samples
+constexpr std::size_t kSlowTexels = 4096;  // features by samples use at most this many texels
 constexpr double kFitRidge = 1e-9;         // relative to the mean square of the terms
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;

@@ -29,7 +29,7 @@ Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<Quadratur
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 
-// Compresses both tables to the leading singular vectors of a common space.
+// Projects both tables onto the leading singular vectors of their common space.
 FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& target,
                                AppearanceDistance distance) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();

@@ -99,7 +99,7 @@ Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<st
   result.spacing = search_spacing(positions);
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
-  // If there are few texels in total, bins with fewer texels are used as well.
+  // If the material has few texels, bins with fewer than kLeastTexels texels are used as well.
   const bool is_sparse = *std::max_element(counts.begin(), counts.end()) < 4 * kLeastTexels;
   const int least = is_sparse ? 1 : kLeastTexels;
 

@@ -18,7 +18,8 @@ constexpr Color kTransparent = Color{1} << 24;
 
 constexpr double kColorRadius = 40.0;  // colors within this distance are treated as one
 constexpr double kPairRadius = 48.0;   // colors of two images match within this distance
-// JPEG makes shades of the background next to strokes, up to this distance
+// JPEG compression creates shades of the background next to strokes. This is their largest distance from the
+// background color.
 constexpr double kShadeRadius = 80.0;
 constexpr double kBlendRadius = 60.0;  // greatest distance of a blend from the line between its two colors
 constexpr double kMostBlends = 0.4;    // greatest fraction of texels that blend; thin strokes have long edges
@@ -150,7 +151,7 @@ struct Surroundings {
   double flat = 0.0;    // texels with three or more neighbors of the same cluster
   double beside = 0.0;  // texels with another stroke within six texels
   double at_rim = 0.0;  // texels with a larger stroke within six texels
-  double close = 0.0;   // texels with a larger stroke within two texels
+  double close = 0.0;   // for each stroke, the number of texels near which it is the largest stroke
   // number of texels beside which this is the largest stroke
   std::array<std::size_t, kNoCluster + 1> rims = {};
 };

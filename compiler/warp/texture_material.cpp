@@ -58,7 +58,8 @@ struct MaterialRequest {
   bool from_metallic = false, is_albedo = false;
 };
 
-// Requests the maps of the specular workflow, otherwise of the metallic one, otherwise the diffuse map.
+// Requests the maps of the specular workflow if they exist. Otherwise it requests the maps of the metallic
+// workflow, and otherwise the diffuse map.
 MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
   const FoundSet set = only_set(folder, albedo);
   MaterialRequest result;

@@ -12,7 +12,7 @@
 namespace remap {
 namespace {
 
-// The source only gives points. Results are texels of the template, so more of them are used.
+// The source only gives points, but results are texels of the template. So more template texels are used.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
 // These are limits of copy_rms_error().

@@ -81,10 +81,10 @@ class ChildProcess {
   bool started_ = false;
   int start_failure_ = 0;
   std::deque<std::string> lines_;
-  std::size_t unread_ = 0;  // bytes that these lines take
+  std::size_t unread_ = 0;  // size of these lines in bytes
   std::string part_of_line_, log_;
   bool ended_ = false, asked_ = false;
-  const char* fault_ = nullptr;  // why its output was stopped and it was killed
+  const char* fault_ = nullptr;  // reason why the process was killed and its output ignored
   int status_ = 0;
   Clock::time_point leave_by_ = Clock::time_point::max();
 };

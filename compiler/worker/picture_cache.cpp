@@ -1,7 +1,7 @@
 // This file stores pictures. The first line of a file is the request and the renderer's version. The second
 // line is the checksum of the first line and of the picture. The picture follows as raw floats. The name of
-// the file is a hash of the first line. The line is compared, so requests with equal hashes are not confused.
-// The checksum covers every byte, so a damaged file is not used.
+// the file is a hash of the first line. Two requests may have the same hash, so the line is compared. The
+// checksum covers every byte, so a damaged file is not used.
 #include "worker/picture_cache.hpp"
 
 #include <algorithm>

@@ -10,8 +10,8 @@
 
 namespace remap {
 
-// A PictureCache holds the pictures of one version of one renderer, in a folder of the cache named after
-// both. It is safe for many threads and processes. A picture appears complete or not at all.
+// A PictureCache stores the pictures of one version of one renderer. Its folder is named after both. It is
+// safe for many threads and processes. A picture appears complete or not at all.
 class PictureCache {
  public:
   // `renderer` is WorkerDescription::renderer.

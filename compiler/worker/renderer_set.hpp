@@ -30,7 +30,8 @@ class RendererSet final : public Renderer {
 
   // Counts the pictures of workers only.
   PictureCount pictures() const;
-  // Sets a function that is called after every picture of a worker, from any thread; empty for none.
+  // Sets a function that is called after every picture of a worker, from any thread. An empty function is not
+  // called.
   void watch(std::function<void(const PictureCount&)> watcher);
   std::vector<std::string> remarks() const;
 

@@ -28,8 +28,8 @@ struct WorkerLimits {
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 
-// A LostWorker means that the process of a worker has ended, or was ended because it did not answer in time.
-// The request is not at fault: another process may answer it.
+// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time. This
+// is not the fault of the request, so another process may answer it.
 class LostWorker : public Error {
  public:
   explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}

@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// Replaces 0 by numbers of processes, and of threads in each, that suit the machine.
+// Replaces 0 by a suitable number of processes for this machine, and of threads in each.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.limits.threads = std::max(1u, core_count() / settings.processes);
@@ -133,7 +133,8 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if this loss was one too many. Otherwise it waits, because the loss of a machine is noticed late.
+// Throws if too many processes were lost for this picture. Otherwise it waits, because the loss of a machine
+// is noticed late.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(

@@ -57,8 +57,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user: that the cache has pictures of other versions, how many pictures were
-  // damaged, and how many processes were lost, if it was more than the one in the warning.
+  // Returns remarks for the user about pictures of other versions in the cache and about damaged pictures. It
+  // also reports lost processes if there were more than the one in the warning.
   std::vector<std::string> remarks() const;
 
  private:
@@ -88,7 +88,7 @@ class WorkerRenderer final : public Renderer {
   mutable std::size_t running_ = 0;        // number of processes
   mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
   mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0}, lost_{0};
-  mutable std::atomic<bool> keeps_{true};  // false after a picture could not be written
+  mutable std::atomic<bool> keeps_{true};  // set to false when a picture cannot be written
 };
 
 }  // namespace remap

@@ -37,7 +37,7 @@ TexelSample sample_of_texture(const std::filesystem::path& file);
 // A MaterialMap is a file of a material, or an image inside one.
 struct MaterialMap {
   std::filesystem::path file;
-  std::string shown;  // as messages show it: the file, or `model.glb: image 2 (metal)`
+  std::string shown;  // name in messages: the file, or `model.glb: image 2 (metal)`
   std::string name;   // file name, which may show a convention
   std::shared_ptr<const TexelSample> texels = {};  // null if the image cannot be read
   bool is_embedded = false;                        // `file` is a temporary copy
@@ -53,7 +53,7 @@ struct MaterialUse {
   std::string slot;             // the map's name in an asset: `metallicRoughnessTexture`
   std::vector<double> factors;  // numbers by which an asset multiplies the map; may be empty
   std::string factor_name;      // such as `metallicFactor`
-  bool is_neighbour = false;    // belongs to another material in the folder, for comparison
+  bool is_neighbour = false;    // true if it belongs to another material in the folder, for comparison
   // This is the UV set of the map (glTF).
   std::size_t tex_coord = 0;
   std::string transform = {};  // text of KHR_texture_transform; may be empty
@@ -93,8 +93,8 @@ struct CheckedMaterial {
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();
-  // Returns the channel that a use with one channel reads. Returns nothing for a color, and if the image
-  // lacks the channel.
+  // Returns the channel that a use with one channel reads. Returns nothing for a color, or if the image lacks
+  // the channel.
   std::optional<std::size_t> channel(const MaterialUse& use) const;
   // Returns the stored values of the channel that a use reads.
   const std::vector<float>* plane(const MaterialUse& use) const;

@@ -49,7 +49,7 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   return (a / "").lexically_normal() == (b / "").lexically_normal();
 }
 
-// Adds roughness maps of sets in the same folder to asset materials, because the two may contradict each
+// Adds roughness maps of sets in the same folder to asset materials, because these maps may contradict each
 // other.
 void add_neighbours(FoundMaterials& found) {
   for (CheckedMaterial& material : found.materials) {
@@ -71,8 +71,8 @@ void add_neighbours(FoundMaterials& found) {
   }
 }
 
-// Removes maps from sets if an asset uses them. They are checked for how the asset uses them, not for their
-// names.
+// Removes maps from sets if an asset uses them. The asset states how it uses them, so they are not checked by
+// their names.
 void remove_used_by_assets(FoundMaterials& found) {
   std::set<fs::path> used;
   for (const CheckedMaterial& material : found.materials)

@@ -18,8 +18,7 @@ std::string place_of(const CheckedMaterial& material, const MaterialUse& use) {
                                           : shown + ":" + std::string(name_of(kChannels, use.channels));
 }
 
-// Returns a map of roughness, gloss or alpha as roughness. The role of the map says which of the three it
-// holds.
+// Returns a map as roughness. Its role states whether it holds roughness, gloss or alpha.
 std::optional<Plane> roughness_by_role(const CheckedMaterial& material, const MaterialUse& use) {
   const Plane* stored = material.plane(use);
   if (stored == nullptr) return std::nullopt;
@@ -53,11 +52,12 @@ double distance(const Plane& a, const Plane& b, Function f) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Two maps are related by a function if they agree within this rms: a few steps of 8 bits, or JPEG.
+// Two maps are related by a function if their RMS difference is at most this. It allows a few steps of 8
+// bits, or JPEG compression.
 constexpr double kSame = 0.02, kVaries = 0.03;
 
 // Calls `judge(a, b, roughness of a, roughness of b)` for pairs of roughness maps in different channels or
-// files. b may also be an opacity map, because some people call the width alpha.
+// files. b may also be an opacity map, because some people use the name alpha for the width.
 template <typename Judge>
 void for_width_pairs(const CheckedMaterial& material, Judge judge) {
   const auto is_width = [&](const MaterialUse& use) {
@@ -225,7 +225,7 @@ void duplicate_map(const CheckedMaterial& material, const GltfConsumer*, const R
       const Plane *first = material.plane(a), *second = material.plane(b);
       if (first == nullptr || second == nullptr || *first != *second) continue;
       if (deviation(*first) < kVaries) continue;
-      // The rule gloss-as-roughness reports these.
+      // The rule gloss-as-roughness reports these pairs.
       if (is_roughness(a.role) && is_roughness(b.role)) continue;
       findings.push_back({rule.name, Confidence::kLikely, place_of(material, a), "",
                           "has the same texels as " + place_of(material, b) + ": " +

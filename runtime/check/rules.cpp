@@ -96,7 +96,7 @@ std::span<const Rule> rules() { return kRules; }
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader) {
   std::vector<MaterialFinding> findings;
   for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
-  // If a map holds something else than its role says, rules about its values do not apply.
+  // If a map does not hold what its role states, rules about its values do not apply.
   std::set<std::string> misread;
   for (const MaterialFinding& finding : findings)
     if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.context);

@@ -97,7 +97,7 @@ void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader,
          "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
   };
   for (const MaterialUse& use : material.uses)
-    if (!all_zero(use.factors)) judge(use);  // the rule factor_zero reports the others
+    if (!all_zero(use.factors)) judge(use);  // the rule factor_zero reports uses whose factors are all 0
   for (const MaterialUse& use : material.unread) {
     const std::vector<float>* plane = material.plane(use);
     if (plane != nullptr && std::ranges::any_of(*plane, [](float value) { return value > 0.0f; })) judge(use);

@@ -36,7 +36,8 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
-// OptionTags are consequences of the use of an option, as bits that each program defines.
+// An OptionTags is a set of bits that each program defines. They state what follows from the use of an
+// option.
 using OptionTags = unsigned;
 
 // A Reader reads the word of an option into a value. For other words `read` throws kUsage, with the option
@@ -89,7 +90,7 @@ Reader<std::vector<Value>> list_of(const Reader<Value>& item) {
 
 // A GivenOption is an option from the command line.
 struct GivenOption {
-  std::string name;                // `--type`; for words without an option the name in the help
+  std::string name;                // `--type`; for words without an option, the name in the help
   std::vector<std::string> words;  // empty for a flag
   OptionTags tags = 0;
 };

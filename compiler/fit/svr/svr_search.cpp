@@ -19,9 +19,10 @@ namespace {
 constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
 constexpr std::size_t kFirstFolds = 2;  // hopeless candidates are dropped after these
-constexpr double kHopeless = 1.5;   // with a larger error than this times the best, a candidate is hopeless
+// a candidate is hopeless if its error is more than this many times the best error
+constexpr double kHopeless = 1.5;
 constexpr double kProgress = 0.99;  // an error of at most this times the old one is an improvement
-// like kProgress, for a tube a third as wide, which takes three times as long
+// This is kProgress for a tube a third as wide, whose training takes three times as long.
 constexpr double kWorthTime = 0.9;
 constexpr std::size_t kNeverJudges = kFolds;
 
@@ -71,7 +72,7 @@ SvrHyperParameters parameters_at(const Point& point) {
 
 struct FoldedSamples {
   SvrSamples samples;
-  std::vector<std::size_t> fold;  // fold in which each sample is held out, or kNeverJudges
+  std::vector<std::size_t> fold;  // fold in which each sample is held out; kNeverJudges: it is never held out
 };
 
 FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {

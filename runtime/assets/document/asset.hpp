@@ -55,8 +55,8 @@ class AssetFiles {
 class AssetResources : public AssetFiles {
  public:
   virtual const ImageCodec& codec() const = 0;
-  // Returns the image at a size that is at least its own in both directions. It interpolates bilinearly in
-  // linear light. All channels except alpha are in sRGB.
+  // Returns the image enlarged to a size that is at least its own in both directions. It interpolates
+  // bilinearly in linear light. All channels except alpha are in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
   // Returns the prefix of the names of new images. It is set if another asset may add the same name.
   virtual std::string image_prefix() const { return ""; }
@@ -72,7 +72,7 @@ struct AssetOptions {
   bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of only core
   double prior = kCleanPrior;  // prior of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
-  bool enlarges = false;  // enlarges images of a material that are smaller than another one
+  bool enlarges = false;  // true if images of a material are enlarged to the size of its largest image
   AssetTarget target = AssetTarget::kMetalRough;
   // Folds KHR_materials_specular and _ior into core, too. This needs kMetalRough, and excludes `extensions`.
   bool folds_specular = false;
@@ -83,7 +83,7 @@ struct AssetOptions {
   // This is the quality, 1 to 100, of new color images: JPEG, unless they have alpha or come from a color map
   // that is not JPEG. If it is missing, new images are PNG.
   std::optional<int> jpeg_quality = std::nullopt;
-  // This is the level of new PNG images. If it is missing, the usual level applies.
+  // This is the compression level of new PNG images. If it is missing, the usual level applies.
   std::optional<int> png_level = std::nullopt;
 };
 
@@ -132,7 +132,8 @@ struct NewResource {
 
 // An AssetResource is a URI of a file outside the asset.
 struct AssetResource {
-  // such as `/images/2/uri`; only set for the first URI that leads up or is absolute, to save time
+  // such as `/images/2/uri`; to save time, only set for the first URI that leads out of the folder or is
+  // absolute
   std::string where;
   std::string path;  // relative to the asset, without percent signs; for kRemote the address
   UriKind kind = UriKind::kFile;

@@ -46,7 +46,7 @@ class TextEdits {
 
   std::vector<TextSplice> splices() const;
   void add_splices(SpanValue container, const Changes& changes, std::vector<TextSplice>& splices) const;
-  // These return the white space before the last child, and between its key and value.
+  // These return the white space before the last child, and the white space between its key and value.
   std::string_view space_before(SpanValue child) const;
   std::string colon_of(SpanValue object) const;
 

@@ -1,4 +1,4 @@
-// This file handles a whole glTF file: its container, its materials, and the files that it names.
+// This file handles a whole glTF file: its container, its materials, and the files that it refers to.
 #pragma once
 
 #include <string>

@@ -45,11 +45,11 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
 // A BinaryTail is the new end of the binary chunk.
 struct BinaryTail {
   std::optional<std::uint64_t> kept;  // number of bytes that stay, from the start; if missing, all
-  std::string appended;               // its place is the next multiple of four
+  std::string appended;               // starts at the next multiple of four
 };
 
-// Returns the file with other JSON. Chunks keep their order, and the binary chunk gets another tail. Throws
-// kOutput, beginning with `context`, for 4 GiB or more, which a container cannot hold.
+// Returns the file with other JSON. Chunks keep their order, but the binary chunk ends with another tail.
+// Throws kOutput, beginning with `context`, if a container would have 4 GiB or more.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
                                   const BinaryTail& tail, const std::string& context);
 

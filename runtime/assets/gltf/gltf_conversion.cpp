@@ -192,7 +192,8 @@ class GltfConversion {
   SpanValue root_;
   const AssetOptions& options_;
   std::unique_ptr<ImageParts> parts_;
-  std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that accepts a material converts it
+  // the first direction that accepts a material converts it
+  std::vector<std::unique_ptr<GltfDirection>> directions_;
   std::set<std::pair<std::size_t, std::string>> pointers_;  // keyed by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
   GltfResult result_;

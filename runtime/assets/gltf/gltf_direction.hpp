@@ -46,8 +46,9 @@ struct MaterialEdit {
   std::vector<MemberText> core;  // members of pbrMetallicRoughness, in their order
   std::vector<std::string_view> removed_extensions;
   std::vector<ExtensionText> added_extensions;
-  SpanValue carried_extras;          // extras of a removed extension, which move to pbrMetallicRoughness
-  std::string vertex_color_warning;  // what vertex colors change if they multiply a color, or empty
+  SpanValue carried_extras;  // extras of a removed extension; they move to pbrMetallicRoughness
+  // warning about what vertex colors change if they multiply a color, or empty
+  std::string vertex_color_warning;
 };
 
 class GltfDirection {

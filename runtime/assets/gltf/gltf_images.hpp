@@ -46,7 +46,7 @@ class GltfImages {
 
  private:
   const GltfBytes& bytes_;
-  // asked for the codec only if an image is loaded, because that takes time and many files have no images
+  // asked for the codec only when an image is loaded, because this takes time and many files have no images
   const AssetResources& resources_;
   std::vector<SpanValue> textures_, samplers_;
   std::list<AssetImage> recent_;  // the newest first

@@ -1,5 +1,5 @@
 // This file adds new images and textures to a glTF file. A new image is stored like its model: in the binary
-// chunk, in a URI, or in a file. New entries follow the last ones, or take places that became free. No index
+// chunk, in a URI, or in a file. New entries are appended, or replace entries that became free. No index
 // changes and no byte moves.
 #pragma once
 
@@ -87,7 +87,7 @@ class GltfNewImages {
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // keyed by image and sampler
   GltfSpares spares_;                                                          // places that are free
-  std::set<std::size_t> unused_images_;                                        // spare images, taken or not
+  std::set<std::size_t> unused_images_;  // spare images, whether they were reused or not
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;

@@ -1,5 +1,6 @@
-// This file finds what only converted materials used: textures, images and views that new ones can replace,
-// and where the bytes still in use end. No index changes, because extras and other programs may use indices.
+// This file finds textures, images and views that only converted materials used, so that new ones can replace
+// them. It also finds the end of the bytes that are still in use. No index changes, because extras and other
+// programs may use indices.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// This file describes the workflows of glTF materials: their inputs, and what these mean to a converter.
+// This file describes the workflows of glTF materials: their inputs, and what the inputs mean to a converter.
 #pragma once
 
 #include <memory>

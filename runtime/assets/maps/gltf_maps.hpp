@@ -13,7 +13,7 @@ namespace remap {
 
 // A MapSources holds the maps of a conversion, all of one size. At least one is given.
 struct MapSources {
-  MapConversion conversion;            // with its sources and their encoding of roughness
+  MapConversion conversion;            // its sources and their encoding of roughness must be set
   const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; may be null
   std::array<double, 3> color_factors = {1.0, 1.0, 1.0};
   const ImagePixels* color_model = nullptr;  // size and type of the results

@@ -23,13 +23,13 @@ struct LegacyMaps {
 struct LegacyMapResult {
   // sRGB; missing if base color is `base`, or the diffuse map times `base`
   std::optional<ImagePixels> base_color;
-  bool keeps_diffuse = false;  // base color is the diffuse map times `base`, within 1/255
+  bool keeps_diffuse = false;  // true if base color is the diffuse map times `base`, within 1/255
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   std::optional<ImagePixels> metal_rough;  // packed as in glTF; missing if both are constant
   double metallic = 1.0, roughness = 1.0;  // factors
   // for a dielectric: F0 / F in sRGB, with F / `specular_factor` as alpha
   std::optional<ImagePixels> specular;
-  // for a dielectric: F; with a map, the largest F, of which alpha is a fraction
+  // for a dielectric: F; if there is a map, the largest F, and alpha is a fraction of it
   double specular_factor = 0.0;
   std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // for a dielectric: F0 / F; 1 with a map
 };
@@ -38,14 +38,14 @@ LegacyMapResult converted_maps(const LegacyMaps& maps);
 
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 
-// Returns an image of three channels, or four with opacity. Colors come from `color` (white if it is null),
-// and alpha from a channel of `opacity` (load_scalar_row()). One of the two may be null. Both have the same
-// size.
+// Returns an image of three channels, or four with opacity. Colors come from `color`, and are white if it is
+// null. Alpha comes from a channel of `opacity` (load_scalar_row()). One of the two may be null. Both have
+// the same size.
 ImagePixels with_alpha(const ImagePixels* color, const ImagePixels* opacity, char channel);
 
-// Returns a map with values base + gain x, clamped to 0 to 1, as -mm describes: "base adds a base value to
-// the texture values", "gain expands the range of the texture values" (Alias|Wavefront, MTL 4.2, 1995). The
-// values are the stored ones. Alpha changes only if `with_alpha`.
+// Returns a map with values base + gain x, clamped to 0 to 1, for the option -mm of MTL. The specification
+// states: "base adds a base value to the texture values", "gain expands the range of the texture values"
+// (Alias|Wavefront, MTL 4.2, 1995). x is the stored value. Alpha changes only if `with_alpha`.
 ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha);
 
 // Replaces a channel by the values that load_scalar_row() loads from another map of the same size.

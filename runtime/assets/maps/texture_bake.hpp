@@ -33,13 +33,13 @@ struct PlacedTexture {
 struct CommonGrid {
   std::size_t of = 0;
   TextureGrid grid;
-  bool repeats = true;  // if false, it needs mesh coordinates within 0 to 1
+  bool repeats = true;  // false if it needs mesh coordinates within 0 to 1
 };
 
-// Chooses the texture that repeats least, if all others repeat in it an integer number of times. Otherwise it
-// chooses a texture that covers coordinates from 0 to 1 without a repeat. Returns the place of that texture,
-// or nothing if there is none. Texels are as small as the smallest of any texture, but at most 4096 a side,
-// or as many as the largest image has.
+// Chooses the grid of the texture that repeats least, if all others repeat in it an integer number of times.
+// Otherwise it chooses a texture that covers coordinates from 0 to 1 without a repeat. Returns the place of
+// that texture, or nothing if there is none. Texels of the grid are as small as the smallest texels of any
+// texture. A side has at most 4096 texels, or as many as the largest image.
 std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
 
 // Returns `map` on another grid. Each texel gets the value of the map at the same texture coordinates (before

@@ -1,4 +1,4 @@
-// This file handles a whole MTL file: the lines of its materials, and the images that they name.
+// This file handles a whole MTL file: the lines of its materials, and the images that they refer to.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace remap {
 AssetConversion convert_mtl(const ByteSource& source, const std::string& context,
                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 
-// Returns the images that the file names, each once. With `resources`, paths are where the images are found.
-// Throws kInput, beginning with `context`.
+// Returns the images that the file refers to, each once. With `resources`, paths are where the images are
+// found. Throws kInput, beginning with `context`.
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources = nullptr);
 

@@ -83,7 +83,7 @@ class MapReader {
       return true;
     }
     std::vector<double> numbers;
-    // Before the name is complete, the last word belongs to it, even if it is a number.
+    // If the name is not complete yet, the last word belongs to it, even if it is a number.
     const std::size_t end = words_.size() - (is_named_ ? 0 : 1);
     while (numbers.size() < option->most && at_ < end) {
       const auto number = mtl_number(document_.raw(words_[at_]));
@@ -190,7 +190,7 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
   return map.file.empty() ? std::nullopt : std::optional(std::move(map));
 }
 
-constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number beside a map
+constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number that a map multiplies
 
 // Applies Blender's rules for materials of its Principled BSDF. Roughness is 1 - sqrt(Ns / scale). Metallic
 // is Ka if illum is 3 or 6, or if Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns
@@ -295,7 +295,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
     }
   };
   for (std::size_t i = block.first + 1; i < block.last; ++i) attempt([&] { read(i); });
-  // If there are several lines Ns, the last one is used, and the others are not even read.
+  // If there are several lines Ns, only the last one is read.
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {

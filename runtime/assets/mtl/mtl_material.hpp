@@ -28,7 +28,7 @@ struct MtlMap {
   bool clamps = false;                                            // option -clamp on
   char channel = '\0';                                            // -imfchan, or 0
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
-  std::vector<TextSpan> levels;      // places of -mm, with the white space after it
+  std::vector<TextSpan> levels;      // places of -mm and of the white space after it
   bool is_color = false;             // if false, all channels are data, also alpha
   std::vector<std::string> unusual;  // options that change the look, and are not applied
 
@@ -51,7 +51,7 @@ struct MtlSurface {
   std::optional<double> illumination;                      // value of illum
   std::optional<double> ambient;                           // red of Ka
   std::optional<double> roughness, metallic;               // Pr, Pm
-  std::optional<double> specular_level;  // 1 means F0 0.04; only set if the maker writes such a level
+  std::optional<double> specular_level;  // 1 means F0 0.04; only set for makers that write such a level
   std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
   bool has_pbr_bsdf = false;                     // bsdf pbr
   bool is_metal_rough = false;                   // Pr, Pm or the maker give metallic and roughness
@@ -81,7 +81,7 @@ struct MtlCover {
   std::optional<double> refraction;                // Ni
   std::array<double, 3> filter = {1.0, 1.0, 1.0};  // Tf, 0 to 1
   bool refracts = false;                           // illum 4, 6, 7 or 9
-  // bump_map holds heights by the specification, but most exporters write normals (holds_normals()).
+  // By the specification, bump_map holds heights, but most exporters write normals (holds_normals()).
   std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
 };
 

@@ -71,16 +71,17 @@ struct ObjMaterials::MaterialDraft {
   MtlCover cover;
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double alpha = 1.0, metallic = 0.0, roughness = 1.0;
-  // This is the map of base color: an unchanged file, or pixels. `base_map` gives its place on the surface.
+  // This is the map of base color: a file that stays unchanged, or pixels. `base_map` contains the options
+  // that place it on the surface.
   const MtlMap* base_map = nullptr;
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
   std::size_t base_image = kNoImage;    // index of an image in the file
-  std::size_t* shared_image = nullptr;  // where its index is kept for other materials
+  std::size_t* shared_image = nullptr;  // where other materials find the index of this image
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 
-  // Runs a step for one map. If the map is missing or cannot be read, the rest of the material stays.
+  // Runs a step that needs one map. If the map is missing or cannot be read, only this step is lost.
   bool attempt(const std::function<void()>& step) {
     try {
       step();
@@ -403,7 +404,7 @@ void ObjMaterials::set_opacity(MaterialDraft& draft) {
   const bool has_map = draft.base_map != nullptr || opacity_map;
   if (!draft.blends || draft.base_image != kNoImage || !has_map) return;
   if (draft.base_pixels == nullptr) {
-    // Other materials may combine the same two files.
+    // Other materials may combine the same two files, so the result is stored.
     const std::string key =
         draft.library.images.folder() + '\0' +
         (draft.base_map != nullptr ? draft.base_map->file + '\0' + draft.base_map->options : "") + '\0' +
@@ -433,7 +434,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
-  // In many materials, one file is both color and opacity. Its alpha can stay.
+  // In many materials, one file is both color and opacity. The file then stays unchanged.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)

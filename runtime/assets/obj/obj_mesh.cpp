@@ -68,7 +68,7 @@ class ObjLines {
     return block_.empty();
   }
 
-  // Appends up to a line ending, and goes behind it. Returns true if there was one.
+  // Appends the text up to a line ending and skips that ending. Returns true if there was one.
   bool add_line() {
     while (!is_at_end()) {
       const auto begin = block_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -94,7 +94,8 @@ class ObjLines {
 // cut, and lines without geometry are dropped.
 class ObjStream final : public std::streambuf {
  public:
-  // `take` is called before more lines are made. It can free earlier results of the importer.
+  // The stream calls `take` before it makes more lines, so that `take` can free earlier results of the
+  // importer.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.push_back({"", false});
@@ -163,8 +164,8 @@ class ObjStream final : public std::streambuf {
     return words;
   }
 
-  // Refuses large exponents, because the importer reads their digits into an integer of 32 bits. No
-  // coordinate has six digits.
+  // Refuses large exponents, because the importer reads their digits into a 32-bit integer. No coordinate
+  // needs an exponent of six digits.
   std::string_view bounded(std::string_view line) const {
     constexpr std::size_t kMostDigits = 5;
     std::size_t digits = 0;
@@ -199,7 +200,7 @@ class ObjStream final : public std::streambuf {
       for (std::size_t i = 2; i < corners_.size(); ++i)
         ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
     }
-    // Cuts only if all vertices of the faces are known, because the importer then triangulates the faces.
+    // Cuts only if all vertices of the faces are known, because the importer triangulates the faces at a cut.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
@@ -214,7 +215,7 @@ class ObjStream final : public std::streambuf {
     }
   }
 
-  // Returns the number of the vertex of a corner if it counts from the first vertex.
+  // Returns the vertex index of a corner if the index is positive, so that it counts from the first vertex.
   static std::size_t vertex_of(std::string_view corner) {
     std::size_t number = 0;
     const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);
@@ -302,7 +303,7 @@ class CornerSet {
   }
 
   std::vector<ObjCorner> corners_;
-  std::vector<std::uint32_t> slots_;  // numbers of corners, at or behind the place of their hash
+  std::vector<std::uint32_t> slots_;  // numbers of corners; each is at the place of its hash, or after it
 };
 
 using Vector = std::array<double, 3>;
@@ -414,7 +415,7 @@ class PrimitiveMaker {
 
   const tinyobj::attrib_t& attributes_;
   ObjPrimitive primitive_;
-  std::vector<bool> is_lacking_;  // normals, by vertex
+  std::vector<bool> is_lacking_;  // vertices that lack a normal
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
@@ -446,7 +447,7 @@ class ObjReader {
  private:
   void load() {
     std::istream stream(&stream_);
-    stream.exceptions(std::ios::badbit);  // otherwise the stream would swallow exceptions while reading
+    stream.exceptions(std::ios::badbit);  // without this, the stream would ignore exceptions while reading
     NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;

@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostClippedCorners = 1024;
 struct ObjPrimitive {
   std::size_t material = 0;            // index into ObjScene::materials
   std::vector<float> positions;        // x, y, z
-  std::vector<float> normals;          // of length 1; a missing one comes from the faces
+  std::vector<float> normals;          // of length 1; missing normals are computed from the faces
   std::vector<float> texcoords;        // u, v, with v from the top as in glTF
   std::vector<float> colors;           // red, green, blue from 0 to 1
   std::vector<std::uint32_t> indices;  // three for a triangle

@@ -18,7 +18,7 @@ namespace remap {
 
 enum class NewImagePlace {
   kBuffer,  // into the buffer
-  kFiles,   // existing files stay where they are, new ones lie beside them
+  kFiles,   // existing files stay where they are, and new files are next to them
 };
 
 class GltfTextures {
@@ -66,7 +66,8 @@ class GltfTextures {
   NewImageNames names_;
   std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
-  std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
+  // textures, keyed by their image and whether they clamp
+  std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;
 };
