@@ -2,8 +2,8 @@
 """check_folders.py BUILT_TESTS checks that a quick test covers each folder of sources.
 
 BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake and CMake store the labels of
-tests. It checks the folders in the list of HACKING.md that contain .cpp files. If one has no quick test, it prints a
-line for each such folder, and the exit code is 1.
+tests. It checks the folders in the list of HACKING.md that contain .cpp files. For each folder without a quick test
+it prints a line, and the exit code is 1.
 """
 import re
 import sys

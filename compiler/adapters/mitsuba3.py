@@ -86,7 +86,6 @@ def make_scene(model, values, scene):
 
 def scene_of(model, values, scene):
     """Returns a scene. Scenes of conductors are kept and updated. Other scenes take only a millisecond to make."""
-    """
     if model not in ("mitsuba3/ggx", "mitsuba3/beckmann"):
         return make_scene(model, values, scene)
     key = (model, scene["resolution"], scene["samples_per_axis"], tuple(scene["light"]["position"]),

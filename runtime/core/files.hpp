@@ -29,7 +29,7 @@ std::string with_final_name(std::string message, const std::filesystem::path& un
                             const std::filesystem::path& path);
 
 // Decides whether the program waits until a result is on the disk. After a power cut the file is then either
-// the old or the new one. Use kNo only for files that their reader can check and make again.
+// the old or the new one. Use kNo only for files that can be checked and made again.
 enum class Flush { kYes, kNo };
 
 // Gives the finished file its final name. On failure it removes `unfinished` and throws kOutput. It fails if

@@ -13,8 +13,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A Confinement is a folder to which inputs are confined. It has the path as names of files begin with it,
-// and the path after links are resolved.
+// A Confinement is a folder to which inputs are confined. It has the path of the folder as it begins the
+// names of files, and the path after links are resolved.
 struct Confinement {
   fs::path name, place;
 };
@@ -42,8 +42,8 @@ bool lies_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// Compares the open file with the file of the resolved name, because the name may lead to another file by
-// now.
+// Compares the open file with the file of the resolved name, because somebody may have changed the name in
+// the meantime.
 void require_confined(const fs::path& path, int descriptor) {
   std::shared_ptr<const std::vector<Confinement>> all;
   {

@@ -1,5 +1,5 @@
-// This file holds JSON as values, which the programs print and write and which parse_json() (json_field.hpp)
-// returns. Only json.cpp includes the library that turns values into text.
+// This file holds JSON values. The programs print and write them, and parse_json() (json_field.hpp) returns
+// them. Only json.cpp includes the library that turns values into text.
 #pragma once
 
 #include <array>

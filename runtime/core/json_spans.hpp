@@ -1,5 +1,5 @@
-// This file scans JSON strictly and keeps the place of each value and key in the text. An editor
-// (text_edits.hpp) can then replace some bytes and move no others. Numbers stay text: 9007199254740993 and
+// This file scans JSON strictly and stores the place of each value and key in the text. An editor
+// (text_edits.hpp) can then replace some bytes without moving others. Numbers stay text: 9007199254740993 and
 // 1E400 are read only on request.
 #pragma once
 
@@ -58,8 +58,8 @@ class SpannedJson {
   std::vector<Node> nodes_;
 };
 
-// A SpanValue is a value of a SpannedJson, which must outlive it. An empty SpanValue has neither members nor
-// a number.
+// A SpanValue is a value of a SpannedJson. It must not outlive the SpannedJson. An empty SpanValue has
+// neither members nor a number.
 class SpanValue {
  public:
   SpanValue() = default;

@@ -17,8 +17,8 @@ struct Character {
   std::uint32_t code = 0;
 };
 
-// These are the least codes of characters of one to four bytes. If a smaller code is written with so many
-// bytes, it is not valid UTF-8.
+// These are the smallest codes of characters of one to four bytes. A smaller code in so many bytes is not
+// valid UTF-8.
 constexpr std::array<std::uint32_t, 4> kLeastCodes = {0, 0x80, 0x800, 0x10000};
 
 std::size_t byte_count(unsigned char first) {

@@ -131,8 +131,8 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
 
-// Returns true for a path that cannot be opened. Such a path is read-only, so nothing in it is still to be
-// written.
+// A path that cannot be opened is read-only, so nothing in it is still to be written. The function then
+// returns true.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return !file.is_open() || wait_for_disk(file.get());

@@ -119,8 +119,8 @@ std::FILE* create_file(const fs::path& path) {
 
 int descriptor_of(std::FILE* stream) { return ::_fileno(stream); }
 
-// Makes no further checks. Only administrators can make links on Windows, and the rights of a folder decide
-// who owns its files.
+// No further checks are needed. Only administrators can make links on Windows, and the rights of a folder
+// decide who owns its files.
 int open_own_file(const fs::path& folder, const fs::path& below, OwnFile use) {
   return open_by(folder / below, use == OwnFile::kRead ? _O_RDONLY : _O_WRONLY | _O_CREAT | _O_APPEND);
 }

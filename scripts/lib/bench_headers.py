@@ -141,7 +141,7 @@ def library(compiler, flags, identifiers, folder):
 
 
 def measure_once(converters, identifier, is_exponent, seconds):
-    """Runs some rounds of memcpy and of the header, whose best times so far are in `seconds`."""
+    """Runs some rounds of memcpy and of the header. `seconds` holds their best times so far."""
     ends = (ctypes.c_float * 3)()
     getattr(converters, f"domain_{identifier}")(ends)
     converters.measure.restype = ctypes.c_size_t

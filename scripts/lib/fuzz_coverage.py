@@ -34,8 +34,8 @@ def inputs_of(name):
 
 
 def run(name, inputs, folder):
-    """Runs the target on inputs. If an input ends the target, runs each input separately, because the profile of the
-    failing one is lost. Returns the failing inputs."""
+    """Runs the target on inputs. If an input ends the target, runs each input separately, because a failing run loses
+    its profile. Returns the failing inputs."""
     program, profile = BUILD / "bin" / f"{name}_fuzz", folder / f"{name}-%m.profraw"
     environment = dict(os.environ, LLVM_PROFILE_FILE=str(profile))
     options = [f"{program}", "-timeout=60", "-rss_limit_mb=4096", f"-artifact_prefix={folder}/"]

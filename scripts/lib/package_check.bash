@@ -25,8 +25,8 @@ build_variant() {
 
 program_of() { ls "build/check/$1/bin/$2"{,.exe} 2>/dev/null | head -n 1; }
 
-# check_bits, check_tests and check_commands NAME EMULATOR run the built programs with the emulator. EMULATOR holds
-# its words.
+# check_bits, check_tests and check_commands NAME EMULATOR run the built programs with the emulator. EMULATOR may have
+# several words.
 # shellcheck disable=SC2086 # the emulator is words
 check_bits() { tests/bits/check.bash $2 "$(program_of "$1" bits)"; }
 

@@ -48,7 +48,8 @@ save_output() {
   "$@" >"$file"
 }
 
-# json_number FILE KEY [N] prints the Nth number (default: first) of that name. Each must be on a separate line.
+# json_number FILE KEY [N] prints the Nth number (default: first) of the key KEY. Each number must be on a separate
+# line.
 json_number() {
   sed -n 's/.*"'"$2"'": *\(-\{0,1\}[0-9][0-9.eE+-]*\).*/\1/p' "$1" | sed -n "${3:-1}p"
 }

@@ -14,8 +14,8 @@ using Pass = std::size_t (*)(std::size_t count, const float* width,
                              const std::array<const float*, 3>& specular, float* width_out,
                              const std::array<float*, 3>& specular_out);
 
-// These are the same conversions over interleaved texels: RGBA with the width in alpha, RGB with a separate
-// map of the width, and RGBA texel by texel.
+// These passes convert interleaved texels: RGBA with the width in alpha, RGB with a separate map of the
+// width, and RGBA texel by texel.
 enum class TexelUse { kRgba, kRgb, kSingle };
 using TexelPass = void (*)(TexelUse use, std::size_t count, const float* width, const float* in,
                            float* width_out, float* out);
@@ -23,7 +23,7 @@ using TexelPass = void (*)(TexelUse use, std::size_t count, const float* width, 
 // This header is also measured over large maps and interleaved texels.
 inline constexpr const char* kLargeHeader = "mitsuba_ward_to_mitsuba_as";
 
-// This is the header of the network of whole materials that ships.
+// This is the header of the shipped network for whole materials.
 inline constexpr const char* kNetworkHeader = "specular_to_metallic_network_sztrajman_2019";
 
 // This is the evaluate_batch of a header of whole materials. It returns texels out of domain.
@@ -33,7 +33,7 @@ using MaterialPass = std::size_t (*)(std::size_t count, const float* const* in, 
 // `batch` texels at a time.
 struct NetworkProducts {
   std::size_t batch;
-  bool texels_innermost;                         // whether a column of the matrices is a row of texels
+  bool texels_innermost;                         // true if a column of the matrices is a row of texels
   const float *hidden_weights, *output_weights;  // 1800 and 1200 arbitrary numbers
 };
 using ProductsPass = void (*)(const NetworkProducts& products, std::size_t texels, const float* in,

@@ -1,5 +1,5 @@
-// This file is one build of the pass of one header of whole materials. Names and flags come from CMake, as in
-// pass.cpp.
+// This file compiles the pass of one header of whole materials for one set of flags. Names and flags come
+// from CMake, as in pass.cpp.
 #include <cmath>
 #include <cstdint>
 #include <cstring>

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures the speed of the Python package: python_speed.py MAP_SPEED [SIDE].
 
-It is given as a fraction of one core of the C++ library. MAP_SPEED is the program of the library
+It prints the speed as a fraction of one core of the C++ library. MAP_SPEED is the program of the library
 (tests/bits/map_speed.cpp), which converts 2048 x 2048 floats. Both convert the same maps and must give the same bits.
-For maps of SIDE x SIDE (default 4096), it also prints how many times as fast as NumPy it is, with the same
-polynomials on one thread. Times are processor times, and the fastest of several passes is used.
+For maps of SIDE x SIDE (default 4096), it also compares with NumPy, which evaluates the same polynomials on one
+thread. Times are processor times of the fastest of several passes.
 """
 
 import json

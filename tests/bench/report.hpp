@@ -31,7 +31,7 @@ struct Row {
   std::optional<double> value;
   std::string unit;  // unit of `value`
   std::optional<double> ratio;
-  std::string rival;  // what `ratio` compares with
+  std::string rival;  // the program or code that `ratio` compares with
   std::optional<double> goal = std::nullopt;
   bool goal_is_ratio = true;  // if false, `goal` is an upper limit of `value`
 };

@@ -1,5 +1,5 @@
-// This file is one build of a header over interleaved texels. Names and flags come from CMake, as in
-// pass.cpp.
+// This file compiles a header for interleaved texels, for one set of flags. Names and flags come from CMake,
+// as in pass.cpp.
 #include "bench/builds.hpp"
 
 #define BENCH_TEXT(name) #name

@@ -19,8 +19,8 @@ auto pointers(Rows& rows) {
   return all;
 }
 
-// A MaterialMaps holds rows of a metallic material, of the specular material that it is, and of the result of
-// converting that back.
+// A MaterialMaps holds rows of a metallic material, rows of the equivalent specular material, and rows for
+// the result of converting it back.
 struct MaterialMaps {
   std::array<std::vector<float>, 5> metallic, back;
   std::array<std::vector<float>, 7> specular;

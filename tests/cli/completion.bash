@@ -5,7 +5,7 @@ cd "$1"
 PATH=$2:$PATH
 faults=0
 
-# expect LINE WORDS checks the completions of the last word in a command line. bash splits the other words at =.
+# expect LINE WORDS checks what bash offers for the last word of a command line. bash also splits words at =.
 expect() {
   local -a COMP_WORDS
   read -ra COMP_WORDS <<<"$1"

@@ -96,7 +96,7 @@ def shown(command, inputs, programs):
 
 
 def check(path, programs, record):
-    """Runs the cases of a file. Returns how many there are and how many differ."""
+    """Runs the cases of a file. Returns the number of cases and the number of differing cases."""
     parts = parse(path.read_text())
     cases = [part for part in parts if not isinstance(part, str)]
     failed = 0

@@ -29,8 +29,8 @@ std::string manifest() {
   "chains": [{"id": "a_b_to_mitsuba_ward_duer", "steps": ["a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer"]}]})";
 }
 
-// Returns the same manifest with models of an index of refraction, which are not compared by pictures. It has
-// no inverse, whose 480 rows take longer to fit than all others.
+// Returns the same manifest, but its models have an index of refraction, so fits are not compared by
+// pictures. It has no inverse, whose 480 rows take longer to fit than all other rows.
 nlohmann::json quick_manifest(int resolution = 48) {
   auto items = nlohmann::json::parse(manifest());
   items["published"][0]["id"] = "a_b_to_mitsuba_as_ior";
@@ -140,7 +140,7 @@ TEST_CASE("remapc build: only what changed is made again", "[slow]") {
   CHECK(built_ids(session.remapc(build_of())).size() == 1);
   CHECK(session.content("fits/" + id + ".json") == fit);
 
-  // If the recipe of the sweeps changes, both pairs are made again, and the chain that uses one of them.
+  // If the recipe of the sweeps changes, both pairs are made again. So is the chain that uses one of them.
   session.write("fits/manifest.json", quick_manifest(56).dump());
   CHECK(built_ids(session.remapc(build_of())) ==
         std::vector<std::string>{"a_b_to_mitsuba_ggx_ior", id, "mitsuba_ggx_ior_to_mitsuba_as_ior"});
@@ -171,7 +171,8 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   CHECK(built_ids(session.remapc(build_of())).empty());
   CHECK(read_file(list) == text);
 
-  // If a converter is made again with the same recipe, the file does not change. With another recipe it does.
+  // If a converter is made again with the same recipe, the file does not change. If the recipe changes, the
+  // file does, too.
   std::filesystem::remove(session.path("generated/" + id + ".hpp"));
   CHECK(built_ids(session.remapc(build_of())) == std::vector<std::string>{id});
   CHECK(read_file(list) == text);
@@ -315,8 +316,8 @@ TEST_CASE("remapc build: tables of real renderers are reused without the rendere
         std::vector<std::string>{"fake_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_fake_ggx"});
   const std::string table = session.content("fits/tables/fake_ggx_to_mitsuba_ggx.csv");
 
-  // If the worker is missing, nothing is out of date, and --force reuses the tables. A changed table is an
-  // error.
+  // A missing worker does not make items out of date, and --force then reuses the tables. A changed table is
+  // an error.
   const Words elsewhere = "--worker fake=/nowhere/to-be-found";
   CHECK(built_ids(session.remapc(build_of(elsewhere))).empty());
   const Words forced = elsewhere + "--force";

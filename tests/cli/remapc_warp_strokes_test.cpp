@@ -70,7 +70,7 @@ TEST_CASE("remapc warp: two paintings with a color for each region give the same
   const auto json = nlohmann::json::parse(result.output)["diagnostics"];
   CAPTURE(json.dump());
   CHECK(json["strokes"].size() == 4);
-  if (!smooth)  // strokes are in the order of their first texels
+  if (!smooth)  // strokes are sorted by the place of their first texels
     CHECK(json["strokes"] ==
           nlohmann::json({"stroke #ffff00", "stroke #0000ff", "stroke #00cc00", "stroke #ff0000"}));
   CHECK(json["fixed_directions"] == 2);

@@ -75,7 +75,7 @@ ProcessResult warp(const Session& session, const std::string& source, const std:
 }
 
 // Returns the RMS distance between the position of a texel and the position that it was copied from, relative
-// to the width of the map. Its own position would be correct.
+// to the width of the map. The correct distance is 0.
 double place_error(const TestImage& places) {
   const int column = places.channel("X"), row = places.channel("Y");
   double sum = 0.0;

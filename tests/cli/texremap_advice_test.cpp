@@ -1,5 +1,5 @@
-// This file tests what `texremap check` advises: each command runs as it is printed, and the rule then finds
-// nothing in its result.
+// This file tests the advice of `texremap check`. Each printed command is run, and its result must then pass
+// the rule.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

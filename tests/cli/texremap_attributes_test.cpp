@@ -130,7 +130,7 @@ void check_file(const fs::path& file, int converted, bool is_lossless, Compariso
   }
 }
 
-// Checks that some file needed each exception for these formats.
+// Checks that each exception was needed by at least one file of these formats.
 void check_used(const Comparison& comparison, const std::vector<std::string>& extensions) {
   for (std::size_t i = 0; i < comparison.used.size(); ++i) {
     const Exception& exception = comparison.exceptions[i];

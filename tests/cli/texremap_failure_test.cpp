@@ -51,7 +51,7 @@ void write_sets(const Tree& tree, const std::string& extension, int large) {
                set[0] == 'b' ? large : kTreeMapSize);
 }
 
-// Checks that the large set failed and left no file under any name, and that the other sets are complete.
+// Checks that the large set failed without leaving any file, and that the other sets are complete.
 void check_others_whole(const Tree& tree, const ProcessResult& result, const std::string& extension,
                         int exit_code) {
   INFO(result.errors);

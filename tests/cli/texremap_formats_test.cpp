@@ -197,8 +197,8 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("specular read as srgb"));
   const TestImage in = session.image("r.jpg"), color = session.image("s.jpg"),
                   out = session.image("out/r.jpg");
-  // JPEG of quality 100 rounds the coefficients of 8 x 8 cosines to integers. The error is a few steps of
-  // 1/255 at most.
+  // JPEG of quality 100 rounds the coefficients of 8 x 8 cosines to integers. The error is at most a few
+  // steps of 1/255.
   for (int x = 0; x < 64; ++x) {
     const auto read = [&](int c) { return color_read(color.at(x, 3, c), color.spec.format); };
     const std::array<float, 3> specular = {read(0), read(1), read(2)};

@@ -42,7 +42,7 @@ class HostileFolder : public Tree {
     fs::create_directories(fs::path(path(name)).parent_path());
     fs::create_symlink(to, path(name));
   }
-  // Edits the manifest and corrects its hash, which anybody can do, because the hash has no key.
+  // Edits the manifest and corrects its hash. Anybody can do this, because the hash has no key.
   void change_manifest(const std::string& from, const std::string& to) const;
 };
 
@@ -245,7 +245,7 @@ TEST_CASE("texremap hostile: pipes and files without end in the place of its fil
   fs::create_directories(folder.path("in/.texremap-parts"));
   REQUIRE(::mkfifo(folder.path("in/.texremap-parts/a.journal").c_str(), 0600) == 0);
   folder.put("in/.texremap.jsonl", "");
-  // a file of zeros without a line break
+  // The journal becomes a file of zeros without a line break.
   fs::resize_file(folder.path("in/.texremap.jsonl"), std::uintmax_t{8} << 30);
   CHECK(folder.texremap(kOfTree).exit_code == 0);
   fs::remove(folder.path("out/.texremap.jsonl"));

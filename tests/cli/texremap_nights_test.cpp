@@ -68,7 +68,7 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
     tree.map("in/" + name + "_specular.png", kColor);
     tree.map("in/" + name + "_glossiness.png", kGrey);
   }
-  // below the inputs and absolute, whereas --output is a relative path
+  // this path is absolute and below the inputs, but --output is a relative path
   const fs::path checks = tree.path("in/checks");
   const auto convert = [&](const Words& more) {
     return tree.texremap("convert in --from gltf-specgloss --to gltf -r --json -o out --diagnose " +
@@ -236,8 +236,8 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
     const Words same = command("mitsuba/as", "");
     for (const ProcessResult& result : run_both(same, same)) require_success(result);
     CHECK(content() == alone["mitsuba/as"]);
-    // Of two different conversions one is refused. With --force, the last one owns the folder. No set is
-    // mixed from both.
+    // If two different conversions run at once, one is refused. With --force, the last one owns the folder.
+    // No set mixes results of both.
     for (const Words& more : {Words{}, Words{"--force"}}) {
       fs::remove_all(tree.path("out"));
       run_both(command("mitsuba/as", more), command("mitsuba/ggx", more));

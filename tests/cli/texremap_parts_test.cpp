@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kParts = ".texremap-parts";
-// A plan contains the name of the program, so texremap must be started by its file.
+// A plan contains the path of the program, so texremap is started by its path here.
 const Words kByItsFile = "/usr/bin/env " REMAP_TEXREMAP;
 const std::string kOfManifest = "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o ";
 

@@ -144,8 +144,9 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
   CHECK(nlohmann::json::parse(result.output)["path"] ==
         nlohmann::json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
   const TestImage r = session.image("out/r.exr"), s = session.image("out/s.exr");
-  // All three are GGX with alpha = roughness^2. They differ in masking, multiple scattering and the Fresnel
-  // rise at the rim. Only Three.js has this rise. It is visible on rough surfaces, where it reduces specular.
+  // All three models are GGX with alpha = roughness^2. They differ in masking, multiple scattering and the
+  // Fresnel rise at the rim. Only Three.js has this rise. It is visible on rough surfaces, where it reduces
+  // specular.
   for (int x = 0; x < 16; ++x) {
     const float source = 0.2f + 0.03f * static_cast<float>(x);
     INFO("roughness " << source);

@@ -114,7 +114,7 @@ struct File {
 struct Set {
   std::string name;
   std::vector<File> files;
-  std::vector<Material> materials;  // as stored in the files, linear, before the specular factor
+  std::vector<Material> materials;  // values that the files store, linear, before the specular factor
   bool is_glossy = false;
   std::string width_file, width_channel;
 };
@@ -625,7 +625,7 @@ void check_library(const Batch& batch, const Set& set) {
   }
 }
 
-// A resumed run changes nothing. It makes damaged results, and results of changed inputs, again.
+// A resumed run changes nothing except damaged results and results of changed inputs, which it makes again.
 void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
   const auto resumed = [&] { return run_batch(tree, batch, "out", "").output; };
   const auto before = content(tree, "out");

@@ -74,7 +74,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   for (const char* name : {"brass", "king_black"})
     CHECK_THAT(result.errors,
                Contains(std::string(name) + "_roughness.jpg: jpeg compression changes values (--format png"));
-  CHECK(count_of(result.errors, "compression changes values") == 2);  // the PNG needs no such warning
+  // the PNG needs no warning about compression
+  CHECK(count_of(result.errors, "compression changes values") == 2);
 
   const auto in = [&](const char* name) { return read_image(folder / name); };
   const auto out = [&](const char* name) { return tree.image(std::string("out/") + name); };

@@ -25,12 +25,12 @@ struct MaterialMaps {
   std::string name, base_color, metallic, roughness, occlusion;
 };
 
-// A RoundTrip counts texels that come back, and other texels with and without a reason in the maps of the
-// report.
+// A RoundTrip counts the texels that come back. It also counts other texels, with and without a reason in the
+// maps of the report.
 struct RoundTrip {
   std::size_t texels = 0, returned = 0;
-  std::size_t unlisted = 0;     // does not come back, and the report does not doubt it
-  std::size_t unexplained = 0;  // does not come back, and differs as a specular material
+  std::size_t unlisted = 0;     // does not come back, although the report does not call it uncertain
+  std::size_t unexplained = 0;  // does not come back, and also differs as a specular material
   int largest_roughness = 0;
   double most = 1.0;  // largest possible fraction of texels that come back, for any method
 };
@@ -72,7 +72,7 @@ bool is_same(const Answer& a, const Answer& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](int x, int y) { return std::abs(x - y) <= 1; });
 }
 
-// Returns how many of these texels a single answer can satisfy.
+// Returns how many of the counted texels a single answer can satisfy.
 std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   std::size_t most = 0;
   for (const auto& entry : counts)
@@ -87,8 +87,8 @@ std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   return most;
 }
 
-// Returns an upper bound for any method that only sees the stored maps, because equal stored texels get equal
-// results.
+// Returns an upper bound for any method that only reads the stored maps, because such a method treats equal
+// stored texels equally.
 double most_that_return(const std::vector<Answer>& given, const TestImage& diffuse,
                         const TestImage& specular) {
   const auto bytes = [](const TestImage& image) { return image.bytes.size() / image.values.size(); };
@@ -219,8 +219,8 @@ TEST_CASE("texremap round trips: BoomBox and a chess king return from the specul
         if (type == std::string("uint16") && models[0] == "gltf")
           continue;  // skipped to save time, because it equals the other pair
         const RoundTrip result = round_trip(*given, models, type);
-        // The goal is 99.9 %. It is lower if the stored maps cannot distinguish so many texels, as the 8 bits
-        // of BoomBox cannot.
+        // The goal is 99.9 %. It is lower if many texels are equal in the stored maps, as in BoomBox with its
+        // 8 bits.
         CHECK(result.returned >= result.texels * (result.most > 0.999 ? 999 : 996) / 1000);
         CHECK(result.unlisted == 0);
         CHECK(result.unexplained <= (given == &box ? result.texels / 5000 : 0));

@@ -104,7 +104,7 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
 
 namespace {
 
-// This is the direction of green that an engine reads: up, down, or as in the input.
+// A Green is the direction of green that an engine reads: up, down, or as in the input.
 enum class Green { kUp, kDown, kKept };
 constexpr std::array<std::pair<const char*, Green>, 9> kEngines = {{{"gltf", Green::kUp},
                                                                     {"unity", Green::kUp},

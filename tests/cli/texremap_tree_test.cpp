@@ -119,7 +119,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set", "[slow]") {
              Contains("hero, tile 1011: no specular map found (hero_Specular.<UDIM>.exr lacks this tile)"));
   CHECK(tree.results().size() == 4);
 
-  // The same maps are given by a pattern. The constant applies to every tile.
+  // The same maps can be given by a pattern. The constant then applies to every tile.
   const ProcessResult named =
       require_success(tree.texremap("convert --from mitsuba/ward --to mitsuba/as --roughness "
                                     "in/hero_Roughness.<UDIM>.exr --specular 0.04 --json -o named"));

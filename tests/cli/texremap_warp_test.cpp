@@ -32,7 +32,7 @@ struct WarpSession : Session {
     write_image(path("wood/oak_roughness.exr"), test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                 [](int x, int y, int) { return 0.2f + 0.8f * noise(x, y, 6); });
   }
-  // Compares each texel of the results with the warp of what `given` returns for it.
+  // Compares each texel of the results with the warp of the texel that `given` returns for it.
   template <typename Given>
   void check_warped(const std::string& stem, const Given& given) const {
     const TestImage diffuse = image(stem + "diffuse.exr"), specular = image(stem + "specular.exr"),

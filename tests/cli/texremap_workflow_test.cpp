@@ -115,7 +115,8 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
-  // The layer over Ward does not define its diffuse, so it gets glTF's meaning: the reflectance comes first.
+  // The specular workflow around Ward's model does not define its diffuse. It gets glTF's meaning: diffuse
+  // only gets the light that specular does not reflect.
   CHECK_THAT(result.errors,
              Contains("the diffuse convention of mitsuba/ward is assumed to be scaled, as in gltf"));
   for (int y = 0; y < kWorkflowSize; y += 3)
@@ -274,8 +275,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
         CHECK(ks <= 1.0f);
       }
       CHECK(diffuse.at(x, y, 0) <= base.at(x, y, 0) * (1.0f - m) + 1e-5f);
-      // The short formula of importers was fitted to other pictures and does not limit Ks. Away from the
-      // limit, alpha is within 15 % of this formula. Elsewhere the lobe is wider.
+      // The short formula of importers was fitted to other pictures and does not limit Ks. Where Ks is small,
+      // alpha is within 15 % of this formula. Elsewhere the lobe is wider.
       if (most < 0.5f && fourth < 0.1f) {
         CHECK(n == Approx(1.52f / fourth).epsilon(0.3));
         ++compared;
@@ -304,8 +305,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {
   const Session session;
-  // This repeats the short formula of the lobe in separate code: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n +
-  // 2). Kd is kept, less the F0 that core adds.
+  // Separate code repeats the short formula of the lobe: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2). Kd
+  // is kept, less the F0 that core adds.
   const auto json = nlohmann::json::parse(
       require_success(
           session.texremap(

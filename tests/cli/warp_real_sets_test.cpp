@@ -68,8 +68,8 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     CHECK(found["fold_share"] < way.folds);
     CHECK(found["stroke_distance"] < 0.5);
     CHECK(found["template_used"] > way.used);
-    // The gold of the king varies in a way that BoomBox cannot represent with its few flat colors. A warning
-    // must report this.
+    // The gold of the king varies more than the few flat colors of BoomBox can represent. A warning must
+    // report this.
     const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
   }

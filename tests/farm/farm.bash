@@ -13,9 +13,10 @@ source "$here/slurm.bash"
 
 readonly convert=(--from mitsuba/ward --to mitsuba/ggx)
 sets=2000 parts=40 least_kills=20
-# These events happen to the tasks of each way, in this order, at random moments. task: kill -9. batch, job: scancel
-# --signal=KILL. daemon: the slurmd of a node dies and comes back, and its tasks live on. node: the machine dies with
-# its tasks. lost: only slurmctld notices. frozen: the machine stops until others have done its tasks.
+# These events happen to the tasks of each scheduler, in this order, at random moments. task: kill -9. batch, job:
+# scancel --signal=KILL. daemon: the slurmd of a node dies and comes back, but its tasks continue. node: the machine
+# dies with its tasks. lost: like node, but only slurmctld itself notices it. frozen: the machine stops until other
+# machines have done its tasks.
 declare -A troubles=([slurm]="task batch frozen node job task daemon task lost batch task node task job"
   [openjd]="task task task task task task" [commands]="task task task task task task task task")
 if [[ $form == short ]]; then
@@ -31,7 +32,7 @@ find_openjd() {
   return 1
 }
 
-# conversions WAY prints the processes of texremap that convert for it, without the one that merges.
+# conversions WAY prints the process ids of texremap that convert for this scheduler, without the process that merges.
 conversions() {
   local pid
   for pid in $(pgrep -x texremap); do
@@ -39,10 +40,10 @@ conversions() {
   done
 }
 
-# running FORMAT prints the jobs of the plan. Other jobs have other names.
+# running FORMAT prints the running jobs of the plan. All other jobs have other names.
 running() { squeue --noheader --states=RUNNING --name=texremap --format="$1"; }
 
-# trouble WAY KIND fails if no process runs that it could hit.
+# trouble WAY KIND causes an event of this kind. It fails if no process runs that the event could hit.
 trouble() {
   local victim
   case $2 in
@@ -69,7 +70,7 @@ trouble() {
 
 report_of() { printf '%s/.texremap-parts/part-%04d-of-%04d.jsonl' "$1" "$2" "$3"; }
 
-# missing_parts OUT prints their numbers, one per line.
+# missing_parts OUT prints the numbers of parts without a report, one per line.
 missing_parts() {
   local i
   for ((i = 1; i <= parts; ++i)); do
@@ -102,8 +103,8 @@ run_commands() {
   sh "$1/merge.sh"
 }
 
-# Converts in rounds and disturbs them. Each round runs the parts that have no report. It stores the number of rounds
-# in `rounds`.
+# Converts in rounds and disturbs them. Each round runs the parts that have no report. The variable `rounds` gets the
+# number of rounds.
 run_in_rounds() {
   local -r way=$1 plan=$2 out=$3
   local -a waiting=(${troubles[$way]}) todo=()
@@ -124,10 +125,10 @@ run_in_rounds() {
   done
 }
 
-# equal_trees ONE OTHER compares them, except for reports and journals.
+# equal_trees ONE OTHER compares two trees, except for reports and journals.
 equal_trees() { diff -r --brief --exclude='.texremap*' "$1" "$2"; }
 
-# nothing_unfinished OUT checks that no hidden file exists except those of the conversion itself.
+# nothing_unfinished OUT checks that OUT has no hidden files except the records of the conversion.
 nothing_unfinished() { ! find "$1" -name '.*' -not -path "$1/.texremap*" -not -path "$1" | grep .; }
 
 # each_set_once OUT checks that the reports of the parts have every set of the manifest once.
@@ -242,7 +243,7 @@ print_figures() {
   sort "$farm/happened.txt" | uniq -c
 }
 
-# Each lane has checks that run one after another: those that use Slurm, and those that do not.
+# The checks of a lane run one after another. One lane uses Slurm, the other does not.
 lane_of_slurm() {
   fill_disk
   try_way slurm

@@ -12,7 +12,7 @@
 
 readonly farm_nodes=(node1 node2)
 
-# skip_farm WHAT REASON skips the test. WHAT is a name that REMAP_REQUIRE may contain.
+# skip_farm WHAT REASON skips the test. WHAT is a word that REMAP_REQUIRE may contain.
 skip_farm() {
   echo "skipped: $1: $2"
   [[ ,${REMAP_REQUIRE-}, == *",$1,"* ]] && exit 1
@@ -178,8 +178,8 @@ start_node() {
 
 kill_daemon() { kill -9 "${node_pids[$1]}"; }
 
-# processes_of NODE prints the daemon first, then the keepers of its tasks, so that nobody reports the end of a killed
-# task. The environment of the tasks contains the name of the node.
+# processes_of NODE prints the processes of a node, whose environment contains its name. The daemon comes first, then
+# the processes that watch its tasks. If they are killed in this order, nobody reports the end of a killed task.
 processes_of() {
   local file pid
   local -a tasks=() keepers=()
@@ -198,8 +198,8 @@ lose_node() {
   kill -9 "${processes[@]}" 2>/dev/null || true
 }
 
-# freeze_node NODE SECONDS stops a machine. Slurm gives it up, and it continues with its tasks after others have done
-# them.
+# freeze_node NODE SECONDS stops a machine. Slurm treats it as lost. It continues with its tasks after other machines
+# have done them.
 freeze_node() {
   local -a processes
   read -ra processes < <(processes_of "$1")
@@ -214,7 +214,7 @@ freeze_node() {
   } 2>/dev/null &
 }
 
-# give_up_node NODE queues the tasks of a lost node again. slurmctld itself does this after about 15 s.
+# give_up_node NODE queues the tasks of a lost node again. Without it, slurmctld would do this after about 15 s.
 give_up_node() {
   scontrol update NodeName="$1" State=DOWN Reason=lost
   start_node "$1"

@@ -11,7 +11,7 @@ enter_farm "$0" "$@"
 readonly remapc=$1 worker="python3 $2/examples/lambert_worker.py"
 readonly by_srun="example=srun -N1 -n1 $worker"
 readonly least_kept=6
-# Sweeps that are disturbed must run long enough. The others are short.
+# A sweep that is disturbed must run long enough. All other sweeps are short.
 readonly pair=(sweep --source example/blinn-phong --target mitsuba/ggx --roughness-range 0.1,0.6 --specular-range 0,0.1
   --specular-samples 3)
 readonly sweep=("${pair[@]}" --roughness-samples 8 --resolution 96) short=("${pair[@]}" --roughness-samples 3 --resolution 48)
@@ -28,7 +28,7 @@ is_the_table() { cmp local.csv "$1"; }
 
 is_the_short_table() { cmp short.csv "$1"; }
 
-# This sweep keeps its pictures in the cache.
+# This sweep stores its pictures in the cache.
 readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --worker-folder pictures --cache cache --force -o table.csv)
 patience=8
 
@@ -52,7 +52,7 @@ is_said() {
   grep -q "warning: worker example, request .* (another process renders the picture)" met.txt && grep -q " lost, " met.txt
 }
 
-# survived TITLE COMMAND... checks that the sweep continues, reports its losses, and leaves no files behind.
+# survived TITLE COMMAND... checks that the sweep continues, reports its losses, and leaves no files.
 survived() {
   met "$@"
   check "$1: the sweep goes on" test "$code" == 0
@@ -61,7 +61,7 @@ survived() {
   check "$1: the folder of pictures is empty" test -z "$(ls -A pictures)"
 }
 
-# ended TITLE COMMAND... checks that another sweep finishes the rest and removes what is left.
+# ended TITLE COMMAND... checks that another sweep finishes the rest and removes leftover files.
 ended() {
   met "$@"
   check "$1: pictures are kept" has_begun

@@ -1,5 +1,5 @@
-// This target decodes images that assets embed or refer to, with the image module of the programs. Encoded as
-// PNG and decoded again, they must be the same.
+// This target decodes images that assets embed or refer to, with the image module of the programs. It encodes
+// them as PNG and decodes them again. They must not change.
 #include "fuzz/fuzz.hpp"
 #include "texture/image_library.hpp"
 

@@ -1,5 +1,5 @@
-// This target reads files for --converters: many converters, or the fit of one. A converter that is read
-// converts a texel. Written and read again, it must be the same.
+// This target reads files for --converters: many converters, or the fit of one converter. Each converter that
+// is read converts a texel. It is then written and read again, and must not change.
 #include "converter/converter_data.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"

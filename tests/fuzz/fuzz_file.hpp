@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// Each run of one target overwrites the file. Its name ends with `ending`.
+// Each run of one target overwrites the file. The name of the file ends with `ending`.
 inline std::filesystem::path fuzz_file(const std::uint8_t* data, std::size_t size,
                                        const std::string& ending = "") {
   const std::string path = "/dev/shm/remap-fuzz-" + std::to_string(::getpid()) + ending;

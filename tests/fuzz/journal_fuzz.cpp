@@ -1,5 +1,5 @@
-// This target reads journals of output folders, for a run of all sets and for a part among others. It then
-// does what a run does that continues in such a folder.
+// This target reads journals of output folders, for a run of all sets and for a part. It then does what a run
+// does that continues in such a folder.
 #include <chrono>
 #include <cstdlib>
 #include <fstream>

@@ -11,7 +11,8 @@
 namespace {
 
 constexpr std::size_t kHead = 12, kFileBytes = kHead + 3 * 90 * 90 * 180 * sizeof(double);
-constexpr std::string_view kCounts("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", kHead);  // the counts 90, 90, 180
+// these bytes are the counts 90, 90, 180
+constexpr std::string_view kCounts("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", kHead);
 
 std::string completed(std::string_view input) {
   std::string file(input);
@@ -27,7 +28,8 @@ std::string completed(std::string_view input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view input = remap::text_of(data, size);
   remap::read_or_refuse([&] { remap::read_merl(remap::fuzz_file(data, size)); });
-  if (size == kHead || !input.starts_with(kCounts)) return 0;  // refused, because its counts are wrong
+  // such a file is refused, because its counts are wrong
+  if (size == kHead || !input.starts_with(kCounts)) return 0;
   const std::string file = completed(input);
   bool is_read = false;
   remap::read_or_refuse([&] {

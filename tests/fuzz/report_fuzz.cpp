@@ -1,6 +1,6 @@
 // This target reads reports of parts, as `texremap merge-reports` does. The first and the second part of a
-// conversion have the same report, so that everything occurs twice. The third report is written as a run
-// does, from those lines of the input that are JSON. It has another number of parts.
+// conversion have the same report, so everything occurs twice. A run writes the third report, from the lines
+// of the input that are JSON. This report states another number of parts.
 #include <fstream>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# commands.bash FOLDER PROGRAM... tests what a texremap without images can do: the self-tests of every converter,
-# paths, numbers, factors of materials, journals, parts, and what it refuses. PROGRAM is the command that runs it.
+# commands.bash FOLDER PROGRAM... tests what texremap can do without images: the self-tests of every converter, paths,
+# numbers, factors of materials, journals, parts, and refusals. PROGRAM is the command that runs texremap.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"

@@ -108,7 +108,7 @@ def draw(name, files, convert, variants, source, scratch):
 
 
 def measure_formulas(objs, record):
-    """Returns tables of the programs that are measured by the formula of their rule."""
+    """Returns tables of the programs that are measured by the formula of their own rule."""
     plain_files = [(label, [(m["ns"], m["kd"], m["ks"]) for m in materials.values()]) for label, _, materials in objs
                    if not any("map_kd" in m for m in materials.values())]
     fbx_files = [("phong_cube.fbx", [fbx_material(ASSETS / "mtl" / "phong_cube" / "phong_cube.fbx")])]

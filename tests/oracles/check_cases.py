@@ -132,7 +132,7 @@ def soften(x, times=1):
 
 
 def mask(x, share):
-    """Returns a binary mask of about the given share of texels, with antialiased edges one to two texels wide."""
+    """Returns a binary mask of about the given fraction of texels, with antialiased edges one to two texels wide."""
     x = soften(x, 2)
     slope = np.hypot(np.roll(x, -1, 0) - np.roll(x, 1, 0), np.roll(x, -1, 1) - np.roll(x, 1, 1)) / 2
     return np.clip((x - np.quantile(x, 1 - share)) / np.maximum(slope, 1e-4) + .5, 0, 1)
@@ -490,8 +490,8 @@ FAULTS = [
     # Specular 0 is intended. An index of 1 removes the reflection a second time, and the refraction, too.
     ("no-specular-by-two-ways", "glTF-Blender-IO 2322", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": 0}, "ior": {"ior": 1}})),
-    # The factor is IOR level .8 times two, as the report proposes. The extension's range ends at 1 (only the colour
-    # may exceed it).
+    # The factor is IOR level .8 times two, as the report proposes. The range of the extension ends at 1. Only the
+    # colour may exceed 1.
     ("specular-factor-above-one", "glTF-Blender-IO 2745", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": 1.6}})),
     ("specular-for-godot", "godot 83320", "ignored-by-reader", DROP, "godot", "plastic",
@@ -509,10 +509,10 @@ FAULTS = [
     ("zero-times-map", "UniVRM 212", "factor-zero", FACTOR, None, "rust",
      lambda d, m: asset(d, m, mr="ao|rough|metal", roughnessFactor=0.0, metallicFactor=1.0)),
     ("specgloss-of-three-channels", "trimesh 1980", "specgloss-channels", FOUR, None, "painted", lambda d, m: spec_gloss(d, m, m["spec"])),
-    # Skin that became half-metal: metallic of .3 to .7 from a reflection map.
+    # Metallic of .3 to .7 comes from a reflection map, which makes skin half metal.
     ("metallic-from-reflection", "FBX2glTF 255", "metallic-greys", r"threshold|binar|\b0 (or|and) 1\b|metal|specular", None, "plastic",
      lambda d, m: painter(d, m, "Skin", Metallic=(half_metal(m),))),
-    # A very large index makes F0 almost 1, instead of metallic.
+    # A very large index makes F0 almost 1. The exporter should have set metallic instead.
     ("ior-1000-for-metal", "glTF 1719", "ior", IOR + "|metallic", None, "rust",
      lambda d, m: asset(d, m, mr="1|rough|0", extensions={"ior": {"ior": 1000}})),
     ("specgloss-used-for-threejs", "mesh-viewer 56", "ignored-by-reader", DROP, "threejs", "painted",
@@ -529,7 +529,7 @@ FAULTS = [
 
     ("base-color-tagged-linear", "own", "linear-color", r"sRGB|re-?tag|colou?r[- ]?space|gAMA|chunk", None, "painted",
      lambda d, m: painter(d, m, BaseColor=(m["base"], 8, GAMMA_1))),
-    # The separate roughness is encoded as sRGB, the roughness of the packed map is not. No file has a tag.
+    # The separate roughness is encoded as sRGB, but the roughness of the packed map is not. No file has a tag.
     ("roughness-stored-srgb", "own", "srgb-data", LINEAR, None, "rust",
      lambda d, m: write(d, m | {"encoded": encode(m["rough"])},
                         {"rock_diff_2k.png": "base", "rock_rough_2k.png": "encoded", "rock_arm_2k.png": "ao|rough|metal"})),
@@ -539,7 +539,7 @@ FAULTS = [
      lambda d, m: write(d, m, {"T_Robot_BC.png": "base", "T_Robot_N.png": "normaldx", "T_Robot_ORM.png": "ao|metal|rough"})),
     ("directx-named-gl", "own", "normal-orientation", FLIP, None, "wood", lambda d, m: write(
         d, m, {"rock_diff_2k.png": "base", "rock_rough_2k.png": "rough", "rock_nor_gl_2k.png": "normaldx", "rock_disp_2k.png": "height"})),
-    # The map is a single grey, although a texture is expected. One number does the same.
+    # The map has a single grey value, although it is used as a texture. A number would do the same.
     ("roughness-of-one-value", "own", "constant-map", PACK, None, "wood", lambda d, m: painter(d, m, Metallic=None, Roughness="0.5")),
     ("bands-in-polished-chrome", "own", "banding", r"16|half|float|EXR|dither|bit", None, "chrome",
      lambda d, m: painter(d, m, "Chrome", Roughness=(bands(m),))),
@@ -556,7 +556,7 @@ FAULTS = [
     ("specgloss-of-one-channel", "own", "specgloss-channels", FOUR, None, "painted", lambda d, m: spec_gloss(d, m, m["spec"].mean(-1))),
     ("specgloss-required-for-threejs", "own", "ignored-by-reader", DROP, "threejs", "rust",
      lambda d, m: spec_gloss(d, m, build(m, "spec+gloss"), required=True)),
-    # Blender's IOR level .5 changes nothing, like specularFactor 1. Written unchanged as the factor, it halves the
+    # Blender's IOR level .5 changes nothing, like specularFactor 1. If .5 is written as the factor, it halves the
     # reflection. The glTF is valid, so this is a weak case.
     ("ior-level-written-as-factor", "own", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": .5}, "ior": {"ior": 1.5}})),

@@ -28,7 +28,7 @@ def linear(x):
     return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
 
 
-VALUES = {  # values of a patch, as a map stores them
+VALUES = {  # values of a patch in the form that a map stores
     "base": lambda b, m, r, o: [srgb(c) for c in b], "metallic": lambda b, m, r, o: [m], "rough": lambda b, m, r, o: [r],
     "gloss": lambda b, m, r, o: [1 - r], "ao": lambda b, m, r, o: [o], "normal": lambda b, m, r, o: [0.5, 0.5, 1.0],
     "height": lambda b, m, r, o: [0.5], "orm": lambda b, m, r, o: [o, r, m], "mr": lambda b, m, r, o: [0.0, r, m],
@@ -88,7 +88,7 @@ def patches_in(paths):
     patches = []
     for dump in re.split(r"(?m)^\S.*\d channel.*$", text)[1:]:
         values = {}
-        # for integers, the values as fractions are in parentheses
+        # for integers, oiiotool prints the values as fractions in parentheses
         for x, y, line in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", dump):
             values[int(x), int(y)] = [float(v) for v in re.sub(r".*\(|\)", "", line).split()]
         patches.append([values[place] for place in ((1, 1), (SIDE - 2, 1), (1, SIDE - 2), (SIDE - 2, SIDE - 2))])
@@ -142,7 +142,7 @@ def judge(found, patches, name, target):
     files = TARGETS[target][1]
     has_occlusion = any(kind in ("ao", "orm") for kind in SETS[name].values())
     tolerance = 0.04 if target in TABLES else 0.02 if name == "Marmoset" else 2.1 / 255
-    if not files:  # results have the names of the inputs, or of their parameters
+    if not files:  # results have the names of the inputs, or the names of their parameters
         words = {r"(?i)base.?color|albedo|_diff_|_color|basemap|_bc": ("base",), r"(?i)_?(specRough|roughness|rough)(_2k)?(\.\d+)?\.": ("roughness",)}
         faults = []
         for words_of, contents in words.items():

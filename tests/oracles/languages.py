@@ -21,7 +21,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as xml
 
-TOLERANCE = 2e-5  # relative for values above 1; floats with sums of several terms
+TOLERANCE = 2e-5  # absolute, or relative for values above 1; floats with sums of several terms
 SHARES = [-0.05, 0.0, 0.004, 0.1, 0.35, 0.7, 0.95, 1.0, 1.2]  # positions in the domain of widths, as fractions
 COLORS = [(0.0, 0.0, 0.0), (0.04, 0.04, 0.04), (0.9, 0.6, 0.3), (0.02, 0.5, 1.0), (1.2, -0.1, 0.25)]
 

@@ -1,4 +1,4 @@
-# paper_match.bash REMAPC FOLDER compares remapc's match by the objective `paper` with the same match of a separate
+# paper_match.bash REMAPC FOLDER compares remapc's match by the objective `paper` with the result of a separate
 # program (paper_match.py).
 set -euo pipefail
 readonly remapc=$1 folder=$2

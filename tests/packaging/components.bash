@@ -1,4 +1,4 @@
-# Tests what packages are made of. The components must have every installed file once. No file may contain a folder of
+# Tests the contents of packages. The components must have every installed file once. No file may contain a folder of
 # the build. CMake and pkg-config must find the library without the programs. Both programs must print their versions.
 source "$(dirname "$0")/check.bash"
 build=$3
@@ -55,7 +55,7 @@ if type -P pkg-config >/dev/null; then
   expect_output "remapc $version build: "
 fi
 
-# The first line is the version, as it always was. Then come facts for error reports.
+# The first line is the version. Facts for error reports follow.
 expect_exit 0 "$work/remap_tools/bin/remapc" --version
 for words in "data: $(grep -c '^ *{"id":' "$source_folder/generated/converters.json") converters, SHA-256 $(
   sha256sum "$source_folder/generated/converters.json" | head -c 12)..." "libraries: OpenImageIO " "libwebp 1." "Eigen 3."; do

@@ -46,7 +46,7 @@ install() {
     sed -n 's/^Need to get \(.*\) of archives.*/\1/p' "$work/output" | sed 's|.*/||') fetched, $(
     sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' "$work/output") on disk, $((SECONDS - start)) s"
 }
-# file_of PACKAGE prints its file in the form that apt needs there.
+# file_of PACKAGE prints the path of the package's file inside the system, in the form that apt needs.
 file_of() { (cd "$debian" && echo packages/"$1"_*.deb | sed 's|^|/|'); }
 # away COMMANDS runs them in an empty folder.
 away() { expect_exit 0 inside bash -c "set -euo pipefail; mkdir -p /away/empty; cd /away/empty; $1"; }
@@ -60,7 +60,7 @@ install libremap-dev "$(file_of libremap-dev)" g++ cmake make pkg-config
 away 'g++ -std=c++20 $(pkg-config --cflags remap) ../project/convert_buffers.cpp $(pkg-config --libs remap) -o by_pkg_config &&
   ./by_pkg_config'
 expect_output "65536 texels, "
-# Without remapc, only things that need it may be missing.
+# Without remapc, only targets that need it may be missing.
 expect_exit 1 inside cmake -S /away/project -B /away/first
 expect_output "remapc is not here, which emits the header (install the package remap-tools,"
 

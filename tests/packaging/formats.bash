@@ -1,6 +1,6 @@
-# Tests files in the formats of earlier versions that are still read, as those versions wrote them. Never change a
-# file in formats/. A new version of a format adds files. If a version is no longer read, its files are removed, with
-# a line in CHANGELOG.md. Such files must then be refused with advice.
+# Tests files in earlier formats that are still read. They were written by earlier versions. Never change a file in
+# formats/. A new version of a format adds files. If a version is no longer read, its files are removed, with a line
+# in CHANGELOG.md. Such files must then be refused with advice.
 source "$(dirname "$0")/check.bash"
 bin=$3
 formats=$source_folder/tests/packaging/formats

@@ -30,7 +30,7 @@ expect_exit 1 convert_map
 expect_output "lib/remap/images.so: file not found; it reads and writes images (install it with the programs, by cmake --install)"
 mv "$work/images.so" "$prefix/lib/remap"
 
-# The commands of README.md, and commands that look up fits, must work outside of the tree, in a folder without fits.
+# The commands of README.md, and commands that look up fits, must also work in an empty folder outside of the tree.
 away=$(mktemp -d)
 trap 'rm -rf "$project" "$away"' EXIT
 {

@@ -1,6 +1,6 @@
-# Tests a project with remap as a subfolder. It must configure with the same commands, get no installation rules or
-# tests from remap, and find its headers by the same include. Building remapc again would take minutes, so the test
-# reads the build files instead.
+# Tests a project with remap as a subfolder. The same commands must configure it. remap must not add installation
+# rules or tests to it. Its includes must find remap's headers in the same way. Building remapc again would take
+# minutes, so the test reads the build files instead.
 source "$(dirname "$0")/check.bash"
 compiler=$3
 id=mitsuba_ward_to_mitsuba_as

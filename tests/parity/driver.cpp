@@ -13,7 +13,7 @@
 
 namespace {
 
-// A Half is half of a float, as a type that a caller may have.
+// A Half is the upper half of a float. A caller may have such a type.
 struct Half {
   explicit Half(float value) {
     std::uint32_t bits = 0;
@@ -29,7 +29,7 @@ struct Half {
   std::uint16_t upper;
 };
 
-// A Buffers points to texels, in place or not: their width, and their red.
+// A Buffers points to the width and to the red channel of texels. Inputs and outputs may be the same.
 template <class T>
 struct Buffers {
   T *width, *red;
@@ -127,7 +127,7 @@ int fail(const char* what) {
   return 1;
 }
 
-// A Layout says where the elements of a texel are.
+// A Layout states where the elements of a texel are.
 struct Layout {
   std::size_t stride, red, width;
   std::size_t apart;  // elements per texel in a separate buffer of the width; 0: no such buffer
@@ -135,7 +135,7 @@ struct Layout {
 constexpr Layout kLayouts[] = {{4, 0, 3, 0}, {4, 1, 0, 0}, {4, 0, 1, 2},
                                {3, 0, 0, 2}, {3, 0, 0, 1}, {5, 1, 4, 0}};
 
-// An Interleaved holds planar rows as texels. The elements between them are 7.
+// An Interleaved holds planar rows as texels. Elements that belong to no row are 7.
 template <class T>
 struct Interleaved {
   Interleaved(const Layout& layout, std::size_t count)

@@ -17,8 +17,8 @@ shared = []
 for path in kernels:
     for line in subprocess.run([nm, "-C", path], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, name = line[17:].split(" ", 1)
-        # T is a function that others call. W and u are functions that others may define, too. Sanitizers add their
-        # own functions.
+        # T is a function that other files call. W and u are functions that other files may define, too. Sanitizers
+        # add their own functions.
         if kind in "TWu" and ("remap::" in name or "std::" in name):
             shared.append(f"{path}: {kind} {name}")
 if shared:

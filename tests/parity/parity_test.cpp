@@ -43,9 +43,9 @@ std::vector<std::string> compilers() {
   return found;
 }
 
-// A compiler may fuse products with sums in rows, but not in single texels (decision 014). Vectors with
-// little or no optimisation are only tested in full campaigns. Sanitizers check the emitter, not its headers,
-// so they need only one build.
+// A compiler may fuse products with sums in rows, but not in single texels (decision 014). Vectorised code
+// with little or no optimisation is only tested in full campaigns. Sanitizers check the emitter, not its
+// headers, so they need only one build.
 std::vector<Build> builds() {
   const bool avx2 = has_avx2();
   std::vector<Build> all;
@@ -136,7 +136,7 @@ std::vector<MadeModel> subjects() {
   add("from_squared", RoughnessEncoding::kSquared, kAlpha, full);
   add("to_exponent", kAlpha, RoughnessEncoding::kExponent, paper);
   add("from_exponent", RoughnessEncoding::kExponent, kAlpha, full);
-  Fit capped = base;  // at both limits, without a hinge
+  Fit capped = base;  // the target is at both limits and has no hinge
   capped.id = "capped";
   capped.mapping = Parametric{{{1.3}}, {{1, {1.4, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   capped.domain = {{0.02, 0.95}, {0.0, 1.0}};
@@ -187,7 +187,7 @@ std::vector<float> texels(const Fit& fit) {
                          nan,
                          -nan,
                          -1.0f};
-  // A product that overflows a float differs from the product of doubles, so it is left out.
+  // In floats, this product overflows, so it differs from the product of doubles. Such texels are left out.
   for (const float width : edges)
     for (const float channel : edges)
       if (channel != 3.4e38f) rows.push_back({width, channel, 0.25f * top, channel});
@@ -208,8 +208,7 @@ std::vector<float> read_floats(const fs::path& path) {
   return values;
 }
 
-// Returns true if the difference is at most `within`, or four units in the last place of a float if that is
-// more.
+// Returns true if the difference is at most `within`, or at most four units in the last place of a float.
 bool close(float value, double expected, double within) {
   if (std::isnan(expected)) return std::isnan(value);
   if (std::isinf(expected) || std::fabs(expected) > 3.4e38)
@@ -220,8 +219,8 @@ bool close(float value, double expected, double within) {
   return std::fabs(static_cast<double>(value) - expected) <= std::max(within, 4.0 * ulp);
 }
 
-// Compares widths as alpha. An exponent is 2 / alpha^2 - 2, which doubles its relative error. A root does
-// not, but is steep at 0. No float can be closer than the float next to the parameter itself.
+// Compares widths as alpha. An exponent is 2 / alpha^2 - 2, which doubles its relative error. A square root
+// does not double it, but is steep at 0. Adjacent floats of the parameter limit how close the result can be.
 bool close_width(const MadeModel& subject, float value, double expected) {
   const RoughnessEncoding convention = subject.fit.target.roughness;
   if (convention == RoughnessEncoding::kAlpha || !std::isfinite(expected))
@@ -242,7 +241,7 @@ void check_against_interpreter(const MadeModel& subject, const std::vector<float
     const double width = evaluate_texel(subject.fit, in[i], specular, expected, &inside);
     outside += inside ? 0 : 1;
     bool right = close_width(subject, out[i], width);
-    double scale = 1.0;  // extrapolation multiplies the result at the edge of the domain, and its error
+    double scale = 1.0;  // extrapolation multiplies the result at the edge of the domain, and also its error
     for (const double channel : specular)
       if (std::isfinite(channel)) scale = std::max(scale, channel / subject.fit.domain.specular.max);
     for (std::size_t c = 0; c < 3; ++c)

@@ -33,7 +33,7 @@ using Grey = std::size_t (*)(std::size_t, const float*, const std::array<const f
 using Rgb = std::size_t (*)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
                             const std::array<float*, 3>&);
 
-// The source of a batch declares the same struct.
+// The source file of a batch declares the same struct.
 struct Entry {
   const char* id;
   Grey grey;
@@ -76,8 +76,8 @@ std::filesystem::path library(const std::filesystem::path& folder, std::size_t b
   return folder / ("batch_" + std::to_string(batch) + ".so");
 }
 
-// Returns true if a polynomial is still a separate function, as compilers keep long ones. A loop that calls
-// it is not vectorised, and four to six times slower.
+// Returns true if a polynomial is still a separate function. Compilers keep long functions separate. A loop
+// that calls one is not vectorised, so it is four to six times slower.
 bool calls_functions_of_texels(const std::filesystem::path& library) {
   const std::string symbols = "nm --demangle " + library.string();
   return std::system(

@@ -31,7 +31,7 @@ Struct made_of(const Element* elements) {
   return made;
 }
 
-// Treats rows as planar texels: pointers, then strides of 1.
+// Passes rows as planar texels: pointers, and strides of 1.
 template <class Texels, std::size_t Rows, class Pointer>
 Texels rows_of(const Pointer* rows) {
   Texels made{};

@@ -55,7 +55,7 @@ std::vector<WorkflowFit> probed_models() {
       if (const AnyFit fit = load_any_fit(entry.path()); std::holds_alternative<WorkflowFit>(fit))
         all.push_back(std::get<WorkflowFit>(fit));
   REQUIRE(all.size() >= 8);
-  // The network that ships has one hidden layer.
+  // The shipped network has one hidden layer.
   all.push_back({"random_network", workflow_test::gltf(workflow_test::random_network()), {}, {}, "0"});
   WorkflowFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
   mixed.conversion.specular.diffuse = DiffuseConvention::kPlain;

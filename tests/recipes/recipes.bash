@@ -26,7 +26,7 @@ cmake --preset release -DREMAP_WARNINGS_AS_ERRORS=ON -DREMAP_BUILD_TESTS=OFF -DR
 cmake --build --preset release --target remapc texremap >build.log || { cat build.log; exit 1; }
 PATH=$folder/build/release/bin:$PATH
 
-# says TEXT COMMAND... checks that the output has the text.
+# says TEXT COMMAND... checks that the output of the command contains the text.
 says() {
   local -r text=$1
   shift

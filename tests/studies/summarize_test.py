@@ -97,7 +97,8 @@ class Summarize(unittest.TestCase):
         self.assertIn("\nmitsuba/ggx -> mitsuba/beckmann has no fit, so `shipped` is not compared.\n", text)
         self.assertTrue(text.startswith("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.3, specular 0.5, 16 x 16 pixels, "
                                         "sampling noise "), text)
-        self.assertTrue(figures["worse_than_copy"] and "no pair is worse than copying" in text)  # both verdicts are tested
+        # the study must give both verdicts
+        self.assertTrue(figures["worse_than_copy"] and "no pair is worse than copying" in text)
 
     def test_workflows(self):
         rows = table(self.folder / "workflows/workflows.csv")

@@ -157,7 +157,7 @@ class Translations(unittest.TestCase):
 
     @unittest.skipUnless(CHROMIUM, "Chromium is not installed")
     def test_page(self):
-        """Sorts by a click and by the keyboard, and filters."""
+        """Checks that a click and the keyboard sort, and that the filter works."""
         code = ("import sys; sys.path[:0] = ['compiler/adapters', 'scripts/studies']\n"
                 "from whole_materials import site\n"
                 "def row(name, kind, ours): return {'kind': kind, 'name': name, 'from': 'OpenPBR', 'to': name, 'in_use': 'names copied',"

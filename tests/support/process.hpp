@@ -16,7 +16,7 @@ namespace remap {
 
 struct ProcessResult {
   int exit_code = -1;  // -1 if a signal ended the process
-  int signal = 0;      // that signal
+  int signal = 0;      // the signal that ended it
   std::string output;  // standard output
   std::string errors;  // standard error
   long peak_kilobytes = 0;
@@ -39,7 +39,7 @@ struct Words : std::vector<std::string> {
 struct ProcessLimits {
   std::filesystem::path folder;      // the working folder, if it differs from the test's
   std::optional<rlim_t> file_bytes;  // limit as by `ulimit -f`: writing more fails
-  bool keeps_permissions = false;    // file modes apply to it, even if the test runs as root
+  bool keeps_permissions = false;  // if true, permissions of files apply to it, even if the test runs as root
 };
 
 // A Process runs at the same time as the test. The destructor kills it if nobody has waited for it.

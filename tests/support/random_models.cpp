@@ -88,7 +88,7 @@ Parametric random_parametric(Random* random) {
     return form;
   }
   for (int power = 0; power <= 3; ++power)
-    for (double share = 0.5; random->chance(share); share *= 0.3)  // terms of one power add up
+    for (double share = 0.5; random->chance(share); share *= 0.3)  // terms with equal powers are added
       form.specular.push_back({power, random_curve(random, wild_specular)});
   if (form.specular.empty()) form.specular.push_back({2, random_curve(random, wild_specular)});
   return form;
@@ -156,7 +156,7 @@ Network random_network(Random* random, const Domain& domain, bool both, Activati
 
 MappingKind random_regressed(const std::string& kind, Random* random, const Domain& domain) {
   if (kind == "parametric") return random_parametric(random);
-  const bool both = random->chance(0.3);  // whether target alpha depends on specular
+  const bool both = random->chance(0.3);  // true if target alpha depends on specular
   if (kind == "svr") {
     KernelExpansion alpha = random_expansion(random, domain, both);
     return Svr{alpha, random_expansion(random, domain, random->chance(0.9))};

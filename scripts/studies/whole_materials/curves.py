@@ -90,7 +90,7 @@ def closest(curve, stage, source, target, fixed):
 
 
 def shown(curve, values):
-    """Returns the searched inputs as the target shows them, because a weight multiplies its colour."""
+    """Returns the searched inputs, multiplied by their weights, because only the product is visible."""
     weights = {"sheen_color": "sheen", "fuzz_color": "fuzz_weight"}
     if curve.name.startswith(("EON", "Oren")):
         weights["base_color"] = "base" if curve.direction == TO_STANDARD else "base_weight"

@@ -39,7 +39,8 @@ def judged(values, defaults):
 
 
 def materials(path):
-    """Returns name, model and values of each material of a document, and what had to be skipped, with the reason."""
+    """Returns name, model and values of each material of a document. Also returns what was skipped, with the reason.
+    """
     found, skipped = [], []
     document = shaders.read_document(path)  # keeps the document alive, because its nodes do not
     if not shaders.surface_nodes(document):

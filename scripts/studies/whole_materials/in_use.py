@@ -1,5 +1,5 @@
-"""Has what people use today for each direction: MaterialX' own graphs or chains of them, values that are copied by
-name, Blender's exporter."""
+"""Converts materials as people do it today, for each direction: by MaterialX' own graphs or chains of them, by
+copying values of the same name, or by Blender's exporter."""
 import materialx_shaders as shaders
 
 # These inputs have the same meaning. Each has its name in OpenPBR, then its name in the source.

@@ -16,7 +16,7 @@ DIRECTIONS = [("UsdPreviewSurface", "open_pbr_surface"), ("principled", "open_pb
 
 
 class Module:
-    """Our translations, as functions of an emitted Python module."""
+    """Holds our translations as functions of an emitted Python module."""
 
     def __init__(self, path):
         spec = importlib.util.spec_from_file_location("remap_translations", path)
@@ -38,7 +38,7 @@ class Module:
 
 
 class Graphs:
-    """Our translations, as node graphs of a MaterialX file, which the shader evaluates."""
+    """Holds our translations as node graphs of a MaterialX file. The shader evaluates them."""
 
     def __init__(self, path):
         self.path = str(path)
@@ -55,7 +55,7 @@ class Graphs:
 
 
 class Nothing:
-    """No translations of ours, so that only the translation in use is judged."""
+    """Holds no translations of ours, so that only the translation in use is judged."""
 
     def values(self, direction, values):
         return None

@@ -7,7 +7,7 @@ import materialx_shaders as shaders
 from whole_materials import principled
 
 RESOLUTION = 128
-ANGLES = (0, 30, 60, 90)  # single lights, turned to the right; a fifth light is 45 degrees above
+ANGLES = (0, 30, 60, 90)  # angles of the single lights to the right; a fifth light is 45 degrees above
 ENVIRONMENTS, ENVIRONMENT_LIGHTS = 2, 12
 ENVIRONMENT_SEED = 68  # environments are the same in every run, because only the materials are random
 

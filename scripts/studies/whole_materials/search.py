@@ -63,7 +63,8 @@ class Vector:
 
 
 def minimise(residuals, start, low, high, steps=STEPS):
-    """Returns the vector with the least sum of squared residuals that steps inside the range reach from `start`."""
+    """Returns the vector with the least sum of squared residuals. The search steps from `start` and stays inside the
+    range."""
     x, damping = start, 1e-3
     now = residuals(x)
     for _ in range(steps):
@@ -91,9 +92,10 @@ def minimise(residuals, start, low, high, steps=STEPS):
 
 
 def closest(stage, source, shader, starts):
-    """Returns the values with the closest pictures to `source`, the pictures of the stage, from the best of the starts.
+    """Returns the values whose pictures are closest to `source`, which are pictures of the stage. It uses the result
+    of the best start.
 
-    Inputs that are not searched, such as the workflow of UsdPreviewSurface, stay as each start has them.
+    Inputs that are not searched, such as the workflow of UsdPreviewSurface, keep the values of each start.
     """
     vector = Vector(INPUTS[shader.name], shader.types)
     found = []

@@ -23,7 +23,7 @@ def studio():
     """Returns the lights of the pictures, in sets for one pass each: a soft box, a strip at the right, and dim light
     from all directions.
 
-    Many lights represent a large light. Their distance is smaller than the width of the highlights of documents.
+    Many small lights represent a large light. They are closer together than the width of the highlights of documents.
     """
     box = [((-0.95 + 0.13 * x, 0.3 + 0.13 * y, 1.1), (0.021,) * 3) for x in range(8) for y in range(6)]
     strip = [((1.6, -0.8 + 0.16 * y, 0.3), (0.034, 0.04, 0.05)) for y in range(11)]
@@ -34,8 +34,8 @@ def studio():
 
 
 def filtered(row, above, channels):
-    """Returns a row of a PNG file with the filter that leaves the smallest differences: none, left, above, or Paeth's
-    of left and above."""
+    """Returns a row of a PNG file with the filter that gives the smallest differences: none, left, above, or Paeth's
+    filter of left and above."""
     left, corner = (np.concatenate([np.zeros(channels, int), one[:-channels]]) for one in (row, above))
     guess = left + above - corner
     near = np.abs(np.stack([guess - one for one in (left, above, corner)])).argmin(axis=0)

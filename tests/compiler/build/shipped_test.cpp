@@ -61,7 +61,7 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
   for (const std::string& source : hub)
     for (const std::string& target : hub)
       if (source != target) CHECK(measured.count({source, target}) == 1);
-  // Every other model has converters to and from the hub.
+  // Every model that is not in the hub must have converters to and from the hub.
   std::set<std::string> real;
   for (const auto& [source, target] : measured) {
     if (!is_in(hub, source)) real.insert(source);

@@ -108,7 +108,7 @@ TEST_CASE("fit kinds: progress rises to 1, and what it throws ends the fit", "[s
         if (has_thrown) throw Error(ErrorKind::kInterrupted, "enough");
       };
       CHECK_THROWS_WITH(fitted(kind, rows_of(), 2, stop), "enough");
-      // in other kinds, some threads may still have called it
+      // threads of other kinds may still have called it
       if (kind.name == "mlp") CHECK(calls_after == 0);
     }
   }

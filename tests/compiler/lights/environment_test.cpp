@@ -95,7 +95,7 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
     const double t = (i + 0.5) / kSteps;
     const double tangent = material.alpha * t / (1.0 - t);
     const double cos_half = 1.0 / std::sqrt(1.0 + tangent * tangent), sin_half = tangent * cos_half;
-    // d(theta) = cos^2(theta) d(tan theta)
+    // This uses d(theta) = cos^2(theta) d(tan theta).
     const double step = cos_half * cos_half * material.alpha / ((1.0 - t) * (1.0 - t)) / kSteps;
     for (int j = 0; j < kTurns; ++j) {
       const double turn = 2.0 * pi * (j + 0.5) / kTurns;
@@ -106,7 +106,7 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
       const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha,
                                       {cos_light, cos_view, cos_half, cos_view_half, 2.0 + 2.0 * between,
                                        2.0 * cos_light * cos_view - between});
-      // d(light) = 4 cos(view, half) d(half)
+      // This uses d(light) = 4 cos(view, half) d(half).
       sum += (lobe.base + material.specular * lobe.slope) * cos_light * 4.0 * cos_view_half * sin_half *
              step * 2.0 * pi / kTurns;
     }

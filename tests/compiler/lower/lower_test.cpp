@@ -1,4 +1,4 @@
-// This file tests lowering: either a form keeps the distance to a mapping that it claims, or it is refused.
+// This file tests lowering. A form must stay within the distance to a mapping that it claims, or be refused.
 #include "lower/lower.hpp"
 
 #include <algorithm>

@@ -72,8 +72,8 @@ long double polynomial_at(const Taylor<2, N>& taylor, long double u, long double
   return sum;
 }
 
-// Claims counts the enclosures that claimed a bound, and those that were close: within a millionth of what
-// they bound.
+// Claims counts the enclosures with a finite bound, and among them those whose remainder is at most a
+// millionth of the bound.
 struct Claims {
   int made = 0, close = 0;
 };

@@ -38,7 +38,7 @@ TEST_CASE("sweep: a renderer with other names, scales and light is matched as if
     CHECK(comment(table, "light_accepted") == (light == 1.0 ? "" : "yes"));
     CHECK(std::stod(comment(table, "irradiance_scale")) == Approx(light).epsilon(1e-6));
     CHECK(comment(table, "diffuse_scale") == "1");
-    // The disguise divides Ward's alpha by 0.8 and multiplies its specular by 4.
+    // The disguised model divides Ward's alpha by 0.8 and multiplies its specular by 4.
     for (const TableRow& row : table.rows) {
       CHECK(row.status == (row.specular1 < 1.0 ? RowStatus::kOk : row.status));
       CHECK(row.specular2 == Approx(row.specular1 * 4.0).epsilon(1e-6));
@@ -298,7 +298,7 @@ TEST_CASE("black box: a diffuse lobe of another shape is no other light: an erro
   CHECK(match.scale > 1.1);
   CHECK(match.diffuse_error > 0.03);
   CHECK(match.accepted);
-  // This is why the rule exists: the lobes are the same, but the match gives another specular.
+  // This shows why the rule exists: the lobes are the same, but the match gives another specular.
   for (const TableRow& row : accepted.rows)
     if (row.specular1 > 0.1) CHECK(row.specular2 > 1.05 * row.specular1);
   REQUIRE(light_remark(match).has_value());

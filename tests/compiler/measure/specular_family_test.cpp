@@ -44,8 +44,8 @@ std::optional<SpecularFamily> family_of(const Renderer& renderer, const std::str
   return probe_family(picture_taker, renderer.model(model), kAlphas);
 }
 
-// Returns the largest deviation of the family's pictures from rendered ones, at speculars and widths that
-// were not probed, relative to the brightest pixel at full specular.
+// Returns the largest deviation of the family's pictures from rendered ones, relative to the brightest pixel
+// at full specular. It uses speculars and widths that were not probed.
 double family_deviation(const Renderer& renderer, const std::string& model, const SpecularFamily& family) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
   const ProbedModel probed_model{renderer.model(model), {}, 1.0, family};
@@ -112,8 +112,8 @@ class RenderedLoss {
 }  // namespace
 
 TEST_CASE("polynomial: minima over a range agree with a dense grid") {
-  // The polynomial has degree 6 and two minima, of which one is lower. The ranges contain both, one, or only
-  // an end.
+  // The polynomial has degree 6 and two minima of different depth. The ranges contain both, one, or only an
+  // end.
   const std::vector<double> wells = {0.2, -0.35, -2.1, 0.3, 2.4, 0.05, 0.1};
   for (const Range range : {Range{-1.0, 1.0}, {-0.2, 1.0}, {-1.0, -0.9}, {0.0, 0.3}}) {
     std::vector<double> grid;
@@ -186,8 +186,8 @@ TEST_CASE("sweep: a target that is quadratic in specular is matched as direct re
       INFO(objective << ": alpha " << row.alpha1 << " specular " << row.specular1);
       const RenderedLoss loss(renderer, options, {row.alpha1, row.specular1, 0.0});
       const RoleValues best = loss.brute_force(kAlphas, {0.0, 1.0});
-      // The grid ends at steps of about 1e-5. Float pictures cause an error of 1e-7 in the loss, or of its
-      // root here.
+      // The grid ends at steps of about 1e-5. Float pictures cause an error of 1e-7 in the loss, whose root
+      // matters here.
       CHECK(row.alpha2 == Approx(best.alpha).epsilon(1e-3));
       CHECK(row.specular2 == Approx(best.specular).epsilon(1e-3));
       CHECK(loss(row.alpha2, row.specular2) <= loss(best.alpha, best.specular) * (1.0 + 1e-6));
@@ -280,7 +280,8 @@ TEST_CASE("pictures: those of a family and their derivatives agree with renders"
       return worst / largest;
     };
     CHECK(close(a.picture, b.picture) < 1e-5);
-    // Differences are over 1e-3 of the range, of floats. Their second order is visible at small specular.
+    // The difference quotients have steps of 1e-3 of the range, and pictures are floats. Second-order errors
+    // are visible at small specular.
     for (std::size_t c = 0; c < 3; ++c) CHECK(close(a.by[c], b.by[c]) < 1e-3);
   }
 }
@@ -300,7 +301,7 @@ TEST_CASE("material sample: a target without a law is matched by the bank's pict
     for (std::size_t i = 0; i < row.source.size(); ++i)
       CHECK(row.target[i] == Approx(row.source[i]).epsilon(2e-4));
   }
-  // The pictures are one per sample, probes of the law (10) and of the family, and two at each of 67 nodes.
-  // Searches by renders need a hundred per sample.
+  // The pictures are one per sample, probes of the law (10) and of the family, and two at each of 67 nodes. A
+  // search that renders each step would need a hundred pictures per sample.
   CHECK(renderer.pictures() <= 12 + 10 + 27 + 2 * 67);
 }

@@ -64,7 +64,7 @@ TEST_CASE("stages: width and specular of two stages do not depend on diffuse") {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(with.rows[i].alpha2 == without.rows[i].alpha2);
     CHECK(with.rows[i].specular2 == without.rows[i].specular2);
-    // the error of the whole picture, in which diffuse is equal
+    // the error covers the whole picture, and diffuse is equal in both
     CHECK(with.rows[i].error < without.rows[i].error);
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("stages: a joint match at a bound is clamped or unstable, and records 
 }
 
 TEST_CASE("stages: a target whose diffuse does not add is detected and matched by renders") {
-  // A Layered renders diffuse that the highlight dims, as layered models do.
+  // A Layered renders a diffuse lobe that the highlight darkens, as layered models do.
   class Layered final : public Renderer {
    public:
     std::string version() const override { return "layered 1"; }

@@ -75,7 +75,7 @@ TEST_CASE("sweep: a model matched with itself is the identity") {
            sweep(*renderer, sweep_options(model, model, objective, samples, 128)).rows) {
         CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-6));
         CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-6));
-        // The error is the root of what interpolation leaves of a loss of 0.
+        // The loss should be 0. The error is the square root of the small loss that interpolation causes.
         CHECK(row.error < 5e-4);
         CHECK(row.status == RowStatus::kOk);
       }
@@ -99,8 +99,8 @@ TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
       sum += weights[i] * std::pow(static_cast<double>(source[i]) - target[i], 2);
     return sum;
   };
-  // Returns the vertex of the parabola through three renders. At a distance of 1e-3, its error is the change
-  // of the curvature times the square of the distance. Float pictures cause an error of 1e-7 in the loss.
+  // Returns the vertex of the parabola through three renders. Its error is the change of the curvature times
+  // the square of the step, which is 1e-3. Float pictures cause an error of 1e-7 in the loss.
   const auto vertex = [](double low, double middle, double high, double step) {
     return step * (low - high) / (2.0 * (low - 2.0 * middle + high));
   };

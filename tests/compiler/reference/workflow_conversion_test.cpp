@@ -100,7 +100,7 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
       const double error =
           oracle.error(result.metallic, {result.base_color[0], result.base_color[1], result.base_color[2]});
       const double least = oracle.least_error(500);
-      // The root of the error is visible: its 0.42-fold is the difference of display values.
+      // The square root of the error is visible. Display values differ by 0.42 times this value.
       const double more = std::sqrt(std::max(error, 0.0)) - std::sqrt(least);
       excess += squared(std::max(more, 0.0));
       floor += least;
@@ -114,8 +114,8 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
 TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit maps") {
   constexpr int kCount = 100000;
   const FamilyError exact = family_error(plain(Projection{0.0}), plain(Equation2{}), 20000, as_it_is);
-  // With 8 bits, some F0 cannot be distinguished from a dielectric's F0 and are treated like it. This causes
-  // most of the error.
+  // In 8 bits, some values of F0 equal the F0 of a dielectric and are treated like it. This causes most of
+  // the error.
   CHECK(exact.metallic < 5e-5);
   CHECK(exact.base_color < 2e-5);
   const FamilyError stored = family_error(plain(kClean), plain(Equation2{}), kCount, in_8_bits);
@@ -123,7 +123,8 @@ TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit 
   CHECK(stored.base_color <= 0.0015);
   const FamilyError scaled = family_error(gltf(kClean), gltf(Equation2{}), kCount, in_8_bits);
   CHECK(scaled.metallic <= 0.002);
-  CHECK(scaled.base_color <= 0.005);  // a metal's diffuse is divided by the little light that specular leaves
+  // to get its base color, a metal's diffuse is divided by the little light that specular does not reflect
+  CHECK(scaled.base_color <= 0.005);
 }
 
 // The same rivals were measured elsewhere with another set of random materials. Each agrees within 5 % in its
@@ -172,7 +173,7 @@ TEST_CASE("every formula: black, white, specular below F0 and above 1 give a mat
   CHECK(to_metallic(plain(kClean), odd[3]).metallic == 0.0f);
   CHECK(to_metallic(plain(kClean), odd[3]).base_color[1] == Approx(1.0).margin(0.05));
   CHECK(to_metallic(plain(kClean), odd[4]).metallic == Approx(0.0).margin(0.01));
-  // 8 bits store 0.04 as 0.0395. A dark dielectric must stay one.
+  // 8 bits store 0.04 as 0.0395. A dark dielectric must stay a dielectric.
   CHECK(to_metallic(plain(kClean), odd[5]).metallic < 0.05f);
 }
 

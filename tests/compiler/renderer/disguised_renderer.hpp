@@ -14,7 +14,8 @@
 
 namespace remap {
 
-// A DisguisedRenderer is the built-in renderer with one additional model, which acts as a closed one.
+// A DisguisedRenderer is the built-in renderer with one additional model. This model acts like one of a
+// closed renderer.
 class DisguisedRenderer : public Renderer {
  public:
   std::string version() const override { return "disguised"; }

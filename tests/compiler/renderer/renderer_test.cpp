@@ -284,8 +284,8 @@ TEST_CASE("brdf: microfacet distributions have projected area 1") {
   }
 }
 
-// This holds for all models of the hub, also for Mitsuba's Phong: without division by the cosine of the
-// light, cos^n of the mirrored angle is symmetric.
+// This holds for all models of the hub. It also holds for Mitsuba's Phong: without division by the cosine of
+// the light, cos^n of the mirrored angle is symmetric.
 TEST_CASE("brdf: light and view can change places") {
   for (const Brdf brdf : kAllBrdfs) {
     const Lobe there = evaluate_lobe(brdf, Fresnel::kSchlick, 0.4, geometry(0.9, 0.35, 1.1));

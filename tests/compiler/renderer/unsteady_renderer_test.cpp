@@ -24,8 +24,8 @@ double random_number(std::uint64_t seed, std::uint64_t pixel) {
 
 struct Habits {
   double noise = 0.0;                // relative noise of a pixel, uniform from -noise to noise
-  double least = 0.0, most = 1e300;  // widths beyond these are clamped to them
-  double mirror = 0.0;               // widths up to this have no highlight
+  double least = 0.0, most = 1e300;  // widths outside of this range are clamped
+  double mirror = 0.0;               // widths up to this value have no highlight
   double paint = 1.0;                // factor of diffuse
   bool dark = false;                 // pictures are black
 };

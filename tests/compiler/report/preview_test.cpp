@@ -1,4 +1,4 @@
-// This file tests previews: an identity looks the same, other conversions do not, and figures match the
+// This file tests previews. An identity looks the same, other conversions do not, and figures match the
 // pictures under every light.
 #include "report/preview.hpp"
 
@@ -60,7 +60,7 @@ TEST_CASE("preview: the identity looks the same under every light, on every shap
 
 TEST_CASE("preview: the sheet has a row for each figure and three pictures of that color") {
   const Preview preview = preview_of(identity(), small_preview({"headlight", "overcast"}));
-  constexpr int kCell = 48 + 2 * 2;  // with a margin of a twentieth on each side
+  constexpr int kCell = 48 + 2 * 2;  // a picture and its margin of a twentieth on each side
   REQUIRE(preview.sheet.width == 3 * kCell);
   REQUIRE(preview.sheet.height == 6 * kCell);
   CHECK(pixel(preview.sheet, 0, 0, 0) == kSheetBackground);

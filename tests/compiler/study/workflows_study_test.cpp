@@ -64,7 +64,7 @@ TEST_CASE("study workflows: floor, projection, equation (3), in this order, in b
       if (comparison.methods[m].name == "projection") continue;
       CHECK(projection < mean_rmse(comparison, m));
     }
-    CHECK(projection < 1.2 * floor);  // 6 % under lights like those for which its weights were chosen
+    CHECK(projection < 1.2 * floor);  // this is 6 % under lights like those that chose the weights
   }
   const WorkflowComparison& plain = result.comparisons.front();
   CHECK(mean_rmse(plain, place_of(plain, "equation (3), weighted, 0.03")) <
@@ -90,7 +90,8 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
       CHECK(pictures.rmse[light] < 0.02);
       CHECK(pictures.ssim[light] > 0.9999);
     }
-  // The search finds these materials by their pictures, or starts from the projection, which is exact.
+  // The search finds these materials from their pictures, or starts from the projection, which is exact for
+  // them.
   for (std::size_t i = 0; i < best.size(); ++i)
     CHECK(best[i].surface.metallic == Approx(projected[i].surface.metallic).margin(0.02));
 }

@@ -37,7 +37,7 @@ double brute_distance(const Eigen::VectorXd& weights, const WarpTexel& a, const 
 
 // Figures holds the figures of a fit on a set, in % of the template's spread unless stated otherwise.
 struct Figures {
-  double error = 0.0;        // distance of the exact copy from the truth
+  double error = 0.0;        // distance of the exact copy from the correct result
   double table_error = 0.0;  // distance of the compiled converter from the exact copy
   double bins = 0.0;         // fraction of the template's occupied bins that the copy uses
   double folds = 0.0;        // fraction of texels
@@ -270,8 +270,8 @@ TEST_CASE("warp: few strokes do not determine all directions, and some contradic
   warned({strokes[0]}, 0, "strokes do not determine direction 1 of 2");
   CHECK_THAT(warned({strokes[0], strokes[1]}, 1, "strokes do not determine direction 2 of 2"),
              !Catch::Contains("direction 1 of 2"));
-  // The second stroke marks the first region again with other texels, but its partner is the opposite corner
-  // of the template.
+  // The second stroke marks other texels of the first region. Its partner is the opposite corner of the
+  // template.
   std::vector<StrokePair> twice = strokes_of(set, 0);
   twice.push_back({strokes_of(set, 1)[2].source, strokes_of(set, 1)[3].target});
   warned(twice, 2, "strokes contradict each other");

@@ -57,7 +57,8 @@ class FakeSession {
   }
   std::size_t pictures() const { return log_lines("picture").size(); }
 
-  // Waits for the end of every process in the workers' log. Returns false if one runs for ten more seconds.
+  // Waits for the end of every process in the workers' log. Returns false if a process still runs after ten
+  // seconds.
   bool nobody_is_left() const {
     for (const std::string& id : log_lines("process")) {
       int tries = 0;

@@ -158,7 +158,7 @@ remap::Image picture(const json& request) {
     log_line("mesh " + scene.at("shape").get<std::string>() + " " + mesh_report(scene.at("mesh")));
     place.shape = remap::Shape::kTorus;
   }
-  // none of these samples is at the centre
+  // no sample is at the centre of a pixel
   if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;
   if (has_fault("no-square")) place.light.distance = 3.0;
   remap::Material material{"mitsuba/ggx-plain", {}};
@@ -201,7 +201,7 @@ bool misbehave(const json& request) {
     std::ofstream(request.at("image").get<std::string>()) << "half";
     std::exit(0);
   }
-  if (has_fault("launcher")) {  // when it is asked to end, it ends what it has started elsewhere
+  if (has_fault("launcher")) {  // if asked to end, it ends what it has started elsewhere
     std::signal(SIGTERM, [](int) {
       log_line("told to end");
       std::_Exit(0);
@@ -263,8 +263,8 @@ void answer(const json& request) {
   }
 }
 
-// Starts a child process, as renderers do. It keeps running unless remapc ends it. With its own session, it
-// is no longer in the group of the worker.
+// Starts a child process, as renderers do. It runs until remapc ends it. If it has its own session, it is no
+// longer in the group of the worker.
 void start_child(bool has_session) {
   const pid_t child = ::fork();
   if (child == 0) {

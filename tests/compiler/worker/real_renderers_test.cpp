@@ -200,8 +200,8 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
     CHECK(table.rows[i].status == RowStatus::kOk);
   }
   // The pictures are probes of both laws (9 and 9) and of the family (27), one per width and two per sphere
-  // (6 and 12), and three per node. Each width needs a window of twelve nodes and two neighbours. All widths
-  // need every sixth of 110 nodes.
+  // (6 and 12), and three per node. Each width needs a window of twelve nodes and two neighbours. The coarse
+  // search needs every sixth of 110 nodes.
   const std::size_t pictures = renderers.pictures().rendered;
   CHECK(pictures <= 9 + 9 + 27 + 6 + 12 + 3 * (6 * 14 + 19));
   std::cout << "Radiance to three.js, six widths at 256^2: " << pictures << " pictures\n";
@@ -222,6 +222,6 @@ TEST_CASE(
       const Disagreement off =
           disagreement(renderers, with("mujoco/material"), with("legacy/blinn-phong"), {96, 1, {angle, 3.0}});
       CHECK(off.rms < 0.002);
-      CHECK(off.inside < 0.03);  // at one pixel, where the light ends and the lobe is cut off
+      CHECK(off.inside < 0.03);  // at one pixel at the edge of the light, where the lobe is cut off
     }
 }

@@ -169,7 +169,7 @@ TEST_CASE("worker: a picture that meets the end of two processes is rendered by 
   WorkerSettings settings = session.settings();
   settings.processes = 3;
   const WorkerRenderer renderer(session.entry("exit", "--after 1"), settings);
-  // Three processes run, and each has made its one good picture.
+  // Three processes run. Each has already made the one good picture that it can make.
   run_parallel(3, 3, [&](std::size_t i) {
     renderer.render(fake_material(0.1 + 0.1 * static_cast<double>(i)), kSmallScene);
   });

@@ -41,7 +41,8 @@ MUJOCO = {  # MuJoCo's default, a shiny paint and a dull paint
 
 
 def mujoco_paints():
-    """Returns the paints above, and the 24 materials of OpenGL. Their specular is grey here, as in MuJoCo."""
+    """Returns MuJoCo's paints and the 24 materials of OpenGL. The specular of the materials is grey here, as in
+    MuJoCo."""
     paints = dict(MUJOCO)
     for number, (n, kd, ks) in enumerate(opengl_materials()):
         paints[f"opengl_{number}"] = (" ".join(map(str, kd)) + " 1", round(sum(ks) / 3, 4), n / 128)

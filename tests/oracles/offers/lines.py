@@ -11,8 +11,8 @@ from offers.pages import PAGES, SHORT_FORMS, examples
 
 PROGRAMS = pathlib.Path(__file__).parent / "lines"
 FLAGS = ["-Wall", "-Wextra", "-Werror"]
-# Each case has the page, the program, the required header (and its package), libraries, and the values that must be
-# printed.
+# Each case has the page, the program, the required header (and its package), libraries, and the values that the
+# program must print.
 CASES = [("assimp.md", "assimp.cpp", "assimp/scene.h", "libassimp-dev", ["-lassimp"], slice(0, 3)),
          ("assimp.md", "assimp_fbx.cpp", "assimp/material.h", "libassimp-dev", ["-lassimp"], slice(3, 6)),
          ("blender-obj.md", "blender-obj.cpp", None, None, [], slice(0, 4)),

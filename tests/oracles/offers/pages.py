@@ -33,7 +33,7 @@ WHOLE = {"blender-materialx.md": ("principled_to_open_pbr_surface", ["coat_darke
 
 
 def check_whole(page, text):
-    """Returns what a page about whole materials lacks, and what its description no longer has."""
+    """Returns what is missing in a page about whole materials, and what its description no longer contains."""
     files, described, stated = WHOLE[page]
     source = "".join((DESCRIPTIONS / f"{name}.txt").read_text() for name in ([files] if isinstance(files, str) else files))
     return ([f"the description no longer has '{words}' (change the page as well)" for words in described if words not in source]
@@ -42,8 +42,8 @@ def check_whole(page, text):
 
 
 def with_constants(text, forms):
-    """Returns the text in which every width and strength has the constants of its form. Phong's form has a factor
-    before n."""
+    """Returns the text with the constants of each form in its widths and strengths. Phong's form has a factor before
+    n."""
     def replaced(match, first, second):
         form = forms["phong" if match["t"] else "blinn"]
         number = lambda value: f"{float(f'{value:.3g}')}{match['s']}"  # noqa: E731
@@ -56,7 +56,7 @@ def with_constants(text, forms):
 
 
 def examples(forms):
-    """Returns what the test of each page states, in the form in which it must be printed."""
+    """Returns the values that each page states for its test, in the form in which the test must print them."""
     def width(lobe, n):
         return (forms[lobe][0] / (forms[lobe][4] * n + forms[lobe][1])) ** 0.25
 

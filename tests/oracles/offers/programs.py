@@ -29,7 +29,7 @@ def run(command, install=False, **options):
 
 
 def edit(path, anchor, text, how):
-    """Puts text before or after the only line that has the anchor, or replaces the anchor in it. With `append`, it
+    """Puts text before or after the only line that has the anchor, or replaces the anchor by it. With `append`, it
     puts the text at the end of a file that has the anchor."""
     lines = path.read_text().splitlines()
     found = [number for number, line in enumerate(lines) if anchor in line]
@@ -59,7 +59,7 @@ def packages_of(python, package):
 
 
 class PythonProgram:
-    """A package of PyPI. Each variant is a copy that comes first in PYTHONPATH."""
+    """Holds a package of PyPI. Each variant is a copy that comes first in PYTHONPATH."""
 
     def __init__(self, cache, name, package, variants):
         self.python = python_of(cache, name, [f"{name}=={VERSIONS[name]}", *(["pillow"] if name == "trimesh" else [])])

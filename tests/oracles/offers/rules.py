@@ -1,4 +1,4 @@
-"""Has the current rules of programs and the short form as formulas, and makes tables of their errors."""
+"""Holds the current rules of programs and the short form as formulas, and makes tables of their errors."""
 import math
 import re
 import sys
@@ -80,8 +80,7 @@ def opengl_materials():
 
 
 def offers(lobe):
-    """Returns the short form in each form that can be written: in KHR_materials_specular, with a rim, and in core
-    glTF."""
+    """Returns the short form as it can be written: in KHR_materials_specular, with a rim, and in core glTF."""
     return {"short form, constant reflectance": lambda *m: short_target(*m, lobe),
             "short form, F90 = 1": lambda *m: short_target(*m, lobe, f90=1.0),
             "short form, core glTF": lambda *m: core_target(*m, lobe)}

@@ -1,4 +1,5 @@
-"""Renders spheres: an exponent's lobe as the source means it, GGX as in appendix B of glTF, and their difference."""
+"""Renders spheres with the lobe of an exponent as its source defines it, and with GGX as in appendix B of glTF.
+Measures their difference."""
 import collections
 import math
 

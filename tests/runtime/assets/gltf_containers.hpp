@@ -38,7 +38,8 @@ inline std::string file_of(const ImagePixels& pixels) {
 }
 inline ImagePixels pixels_of(const std::string& bytes) { return PlainCodec().decode(bytes, "image"); }
 
-// Returns a container with images in its binary chunk, a texture for each, and these materials.
+// Returns a container with the given materials. Its binary chunk has the images, and each image has a
+// texture.
 inline std::string container_of(const std::vector<ImagePixels>& images, const std::string& materials,
                                 const std::string& more = "") {
   std::string binary = "mesh", views = R"({"buffer":0,"byteLength":4})", entries, textures;

@@ -129,10 +129,11 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   }
   const MapStatistics statistics = convert_maps(*converter, maps);
 
-  // The same texels are now interleaved in memory: only the color, all four values, or all four and others.
+  // The same texels are now interleaved in memory. A texel is only the color, all four values, or all four
+  // values and more.
   const std::size_t size = GENERATE(std::size_t{3}, std::size_t{4}, std::size_t{5});
   const std::size_t color =
-      // the color follows a plane of roughness, or each texel's own roughness
+      // the color comes with a plane of roughness, or each texel has its own roughness
       size == 3 ? kWidth * kHeight : 1;
   const auto place = [&](std::size_t i, std::size_t c) {
     return c == 0 ? (size == 3 ? i : size * i) : color + size * i + c - 1;

@@ -50,7 +50,8 @@ const std::vector<Fit>& fits() {
   return all;
 }
 
-// This allows four units in the last place twice: for the parameters as floats, and for the scale of a texel.
+// This allows four units in the last place twice: once for the parameters as floats, once for the scale of a
+// texel.
 constexpr double kRounding = 1e-6;
 
 void check_texel(const Fit& fit, const TestTexels& in, const TestTexels& out, std::size_t i) {

@@ -62,8 +62,8 @@ inline TestTexels odd_and_random_texels(const ConverterInfo& info, std::size_t r
   return rows;
 }
 
-// A Converted is the result for `count` texels from the texel `first` on, with the first `channels` channels.
-// They were converted in place in a copy, or into other rows.
+// A Converted is the result for `count` texels, beginning with the texel `first`, and for the first
+// `channels` channels. The texels were converted in place in a copy, or into other rows.
 struct Converted {
   TestTexels rows;
   std::size_t out_of_domain = 0;

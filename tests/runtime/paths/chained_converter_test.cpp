@@ -18,7 +18,7 @@ namespace {
 
 using Steps = std::vector<const Converter*>;
 
-// An InTurn runs each step over whole rows. A texel is out of domain if it is out of domain at any step.
+// An InTurn runs each step over whole rows. A texel is out of domain if any step is.
 class InTurn {
  public:
   explicit InTurn(Steps steps) : steps_(std::move(steps)) {}
@@ -64,8 +64,8 @@ Fit proportional_fit(const std::string& source, const std::string& target, doubl
   return fit;
 }
 
-// Returns three fits in a row with three conventions. The domain of each is narrower than the results of the
-// fit before.
+// Returns three fits in sequence with three conventions. Each domain is narrower than the results of the
+// previous fit.
 std::vector<Fit> three_fits() {
   Fit first = example_fit(), second = example_fit(), third = example_fit();
   second.id = "example_b_to_example_c";

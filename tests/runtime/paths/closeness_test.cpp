@@ -188,7 +188,7 @@ TEST_CASE("closeness: differences of pictures are those that were measured, or a
   CHECK(measured->copied == 12.0);
   CHECK_FALSE(measured->is_estimate);
   const auto estimated = picture_difference(converters.path("a/a", "a/c"));
-  CHECK(estimated->converted == Approx(5.0));  // 3 and 4, added as squares
+  CHECK(estimated->converted == Approx(5.0));  // the square root of 3^2 + 4^2
   CHECK_FALSE(estimated->copied.has_value());
   CHECK(estimated->is_estimate);
   CHECK(picture_difference(converters.path("a/b", "a/c"))->is_estimate);

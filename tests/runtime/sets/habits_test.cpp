@@ -210,7 +210,7 @@ TEST_CASE("read name: words inside other words and names of sets do not count") 
   for (const std::string name : {"spectrum", "glossary", "through", "a_spectrum", "arms", "armchair_",
                                  "normalized_2k", "trough", "4k", "", "_", "1024"})
     CHECK(reading_text(name) == "none");
-  // A word at the start only has a meaning if there is another map of that stem.
+  // A word at the start only has a meaning if another map has the same stem.
   for (const std::string name : {"color_chart", "rough_sketch"})
     CHECK(built_in_naming().read(name).front().doubtful);
   CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");

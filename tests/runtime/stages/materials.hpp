@@ -68,7 +68,7 @@ inline remap::SpecularMaterial random_specular(std::mt19937& random) {
           share(random)};
 }
 
-// Like the function above, but diffuse reflects at most the light that the specular lobe leaves.
+// Works like the function above, but diffuse and specular together reflect at most the light that arrives.
 inline remap::SpecularMaterial random_reflecting(std::mt19937& random, bool is_plain) {
   remap::SpecularMaterial material = random_specular(random);
   const auto& s = material.specular;
@@ -77,8 +77,8 @@ inline remap::SpecularMaterial random_reflecting(std::mt19937& random, bool is_p
   return material;
 }
 
-// An Oracle computes the weighted squared error of metallic and base color for a specular material, as the
-// method is defined: sums of squares of both differences and their product, in double precision.
+// An Oracle computes the weighted squared error of metallic and base color for a specular material by the
+// definition of the method. It sums the squares of both differences and their product, in double precision.
 struct Oracle {
   Rgb diffuse, f0, weight;
   double mixed, specular, dielectric_f0, diffuse_of_albedo;

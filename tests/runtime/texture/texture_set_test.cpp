@@ -62,7 +62,7 @@ std::string tiff_of_parts(std::uint32_t count) {
     add(std::size(kTags), 2);
     for (const auto& [tag, value] : kTags) {
       add(tag, 2);
-      add(4, 2);  // type 4: a number of 32 bits
+      add(4, 2);  // 4 is the type of a 32-bit number
       add(1, 4);
       add(value, 4);
     }

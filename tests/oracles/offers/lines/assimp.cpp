@@ -1,6 +1,6 @@
-// This program contains the lines for assimp's glTF export. Material and types of the input are assimp's,
-// which reads them from an MTL file. The output has members of glTF2Asset.h, which is in no package. There,
-// `vec3` and `vec4` are arrays of float, too.
+// This program contains the lines for assimp's glTF export. assimp reads the material from an MTL file, and
+// its types are the input. The output has the members of glTF2Asset.h, which is in no package. There, `vec3`
+// and `vec4` are also arrays of float.
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>

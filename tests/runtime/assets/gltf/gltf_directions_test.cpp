@@ -1,6 +1,6 @@
 // This file tests that core materials become spec-gloss, and that KHR_materials_specular and _ior are folded
-// into core. It reads what results mean from their JSON by the texts of glTF 2.0 and the extensions, not by
-// the code under test.
+// into core. It computes the meaning of a result from its JSON, by the texts of glTF 2.0 and the extensions.
+// It does not use the code under test for this.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -277,7 +277,7 @@ TEST_CASE("What folding leaves alone", "[assets]") {
         "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --fold-specular)");
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.count(MaterialState::kUntouched) == 2);
-  // Two materials still use the index. The other extension is removed, because nothing uses it any more.
+  // Two materials still use KHR_materials_ior. Nothing uses the other extension any more, so it is removed.
   CHECK(result.text.find("\"KHR_materials_ior\"],") != std::string::npos);
   AssetOptions wrong = folding();
   wrong.extensions = true;

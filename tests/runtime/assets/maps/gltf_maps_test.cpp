@@ -498,7 +498,7 @@ TEST_CASE("A map is baked onto the grid of another", "[assets]") {
   const ImagePixels quarter = baked(square, Transfer::kLinear, turned, {2, 2, same});
   // As in three.js, (u, v) reads (cos u + sin v, cos v - sin u) = (v, 1 - u), repeated.
   CHECK(quarter.bytes == std::vector<std::byte>{std::byte{30}, std::byte{10}, std::byte{40}, std::byte{20}});
-  // The transform of the grid is undone. A map and a grid with the same transform therefore agree.
+  // The transform of the grid is undone. If map and grid have the same transform, the map does not change.
   TextureTransform both = turned;
   both.scale[0] = 2.0;
   both.offset[1] = 0.3;
@@ -623,7 +623,7 @@ TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
 
 namespace {
 
-// A JpegCodec treats images that begin like JPEG files as the pixels that follow.
+// A JpegCodec reads images that begin like JPEG files as the pixels after that beginning.
 class JpegCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {

@@ -29,7 +29,7 @@ double number_in(const AssetConversion& conversion, const std::string& word) {
 void require_kept(const std::string& before, const AssetConversion& conversion) {
   std::size_t at = 0, from = 0;
   const auto require_next = [&](const std::string& part) {
-    // Added lines lie between the bytes that stay, so each line is searched separately.
+    // Added lines lie between bytes that stay, so each line is searched separately.
     for (std::size_t begin = 0; begin < part.size();) {
       const std::size_t end = std::min(part.find('\n', begin), part.size() - 1) + 1;
       const std::string line = part.substr(begin, end - begin);
@@ -59,7 +59,8 @@ TEST_CASE("Blinn's exponent and strength become roughness and F0", "[assets]") {
 }
 
 TEST_CASE("Core keeps the sum of diffuse and specular", "[assets]") {
-  // If base color is not clamped, base (1 - metallic) + metallic base + .04 (1 - metallic) is the sum.
+  // If base color is not clamped, base (1 - metallic) + metallic base + .04 (1 - metallic) is the sum of
+  // diffuse and specular.
   for (const double diffuse : {0.0, 0.05, 0.3, 0.7})
     for (const double specular : {0.01, 0.2, 0.6})
       for (const double exponent : {5.0, 50.0, 500.0}) {

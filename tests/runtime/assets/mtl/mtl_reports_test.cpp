@@ -222,7 +222,7 @@ TEST_CASE("reports: 15 bsdf pbr packs roughness and metallic into Ks", "[assets]
   CHECK(value_of(lines, "map_Pr") == "-imfchan g ks.png");
   CHECK(value_of(lines, "map_Pm") == "-imfchan b ks.png");
   CHECK_FALSE(converted_mtl(lines.text, &resources).changed);
-  // Numbers are packed in the same way. Other materials of the file follow the specification.
+  // Numbers have the same packing as maps. Other materials of the file follow the specification.
   const Scene numbers = scene_of("newmtl a\nbsdf pbr\nKd .2 .2 .2\nKs 0 .3 1\nnewmtl b\nKd .2 .2 .2\n");
   CHECK(numbers.number("roughnessFactor") == Approx(0.3));
   CHECK(numbers.number("metallicFactor") == 1.0);

@@ -122,8 +122,8 @@ TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of f
 }
 
 TEST_CASE("A group that is read in parts is one shape", "[assets]") {
-  // There are more faces than the importer gets at once, vertices that follow the first polygons, and a
-  // material in between.
+  // There are more faces than the importer gets at once, vertices after the first polygons, and a change of
+  // material.
   constexpr int kFaces = 40000;
   std::string text = "g a b\nusemtl x\nf 1 2 3 4\n";
   for (int i = 0; i < kFaces; ++i) text += "f 1 2 3\n";
