@@ -213,7 +213,7 @@ class ModelCheck:
         self.noise = model.get("noise", False)
         self.role = {parameter["role"]: parameter for parameter in model["parameters"]}
         self.low, self.high = self.role["specular"]["range"]
-        self.material(WIDE, self.low, 0)  # needs every field of the description
+        self.material(WIDE, self.low, 0)  # this needs every field of the description
 
     def run(self):
         try:

@@ -23,7 +23,7 @@ struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
   std::filesystem::path fit_folder;
   std::filesystem::path output = "generated";
-  std::optional<Language> language;  // instead of C++
+  std::optional<Language> language;  // language of the output; if missing, C++
   bool all = false, check = false, force = false;
 };
 

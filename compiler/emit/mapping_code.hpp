@@ -15,7 +15,7 @@ std::string form_code(const ConverterData& converter);
 struct MaterialCode {
   std::string formula;
   std::string constants;  // definitions besides those of source and target
-  std::string functions;  // for namespace detail
+  std::string functions;  // functions of namespace detail
   std::string block;      // the number of texels that are converted together
   std::string call;       // converts a block: rows `from` to rows `to`
   std::string within;     // tolerance for golden values, a float literal

@@ -67,7 +67,7 @@ std::vector<float> resampled(const float* from, std::size_t width, std::size_t c
   return texels;
 }
 
-constexpr double kLampThreshold = 4.0;  // relative to the mean luminance
+constexpr double kLampThreshold = 4.0;  // as a multiple of the mean luminance
 constexpr std::size_t kMostLamps = 128;
 constexpr int kLampTexels = 2;  // width and height of a spot
 

@@ -17,8 +17,8 @@ namespace remap {
 // A Domain is the range of the table's data. Beyond its edges, the factors between source and target
 // parameters keep their values at the edge. Only widths above it are clamped.
 struct Domain {
-  Range alpha;     // of the source
-  Range specular;  // of the source, linear, any channel
+  Range alpha;     // range of the source's alpha
+  Range specular;  // range of the source's specular in any channel, linear
   bool operator==(const Domain&) const = default;
 };
 
@@ -55,7 +55,7 @@ struct Split {
   double held_out_fraction = 0.0;
   std::int64_t trained_rows = 0;
   std::int64_t held_out_rows = 0;
-  std::map<std::string, std::int64_t> left_out;  // status -> rows
+  std::map<std::string, std::int64_t> left_out;  // number of rows for each status
   bool operator==(const Split&) const = default;
 };
 
@@ -102,12 +102,12 @@ struct Fit {
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  Limits limits;                                    // of the target
+  Limits limits;                                    // limits of the target
   std::map<std::string, std::string> method;        // facts: hyper-parameters, search, starts
   std::vector<CandidateRecord> candidates;          // from `auto`; otherwise empty
-  ErrorFigures alpha_error;                         // of the target's alpha
-  ErrorFigures specular_error;                      // of the target's specular
-  std::optional<ImageSimilarity> image_similarity;  // none for published formulas
+  ErrorFigures alpha_error;                         // error of the target's alpha
+  ErrorFigures specular_error;                      // error of the target's specular
+  std::optional<ImageSimilarity> image_similarity;  // empty for published formulas
   std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks a model
   std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;

@@ -41,8 +41,8 @@ struct ProbedModel {
   // This is set for a model without a law, if probe_family found a family.
   std::optional<SpecularFamily> curve = std::nullopt;
 
-  // Returns how pictures depend on specular, by the law if there is one, otherwise by the curve. Returns
-  // nothing if every picture must be rendered.
+  // Returns how pictures depend on specular: by the law if there is one, otherwise by the interpolated
+  // family. Returns nothing if every picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
   // Return the range of canonical specular that the model accepts, and the part of it in which pictures are

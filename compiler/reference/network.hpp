@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// A Scaling is normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole), which
-// spreads values near 0, where curves over alpha bend most.
+// A Scaling computes normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole). The
+// pole spreads values near 0, where curves over alpha bend most.
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0

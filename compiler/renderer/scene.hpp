@@ -60,7 +60,7 @@ inline std::string shape_name(Shape shape) { return std::string(name_of(kShapes,
 
 // The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
 // so that the hole and both flanks are visible.
-inline constexpr double kTorusRadius = 0.68;  // of the circle in the middle of the tube
+inline constexpr double kTorusRadius = 0.68;  // radius of the circle in the middle of the tube
 inline constexpr double kTubeRadius = 0.3;
 inline constexpr double kTorusTilt = 40.0;  // degrees from +z to +y
 

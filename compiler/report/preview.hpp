@@ -55,7 +55,7 @@ struct PreviewSimilarity {
 struct PreviewFigure {
   std::string light;
   Shape shape = Shape::kSphere;
-  double alpha = 0.0;                   // of the source
+  double alpha = 0.0;                   // alpha of the source
   double target_alpha = 0.0;            // canonical
   std::vector<double> target_specular;  // in the fit's unit
   bool in_domain = true;                // whether the fit covers the source material

@@ -17,7 +17,7 @@ namespace remap {
 struct WorkflowMethod {
   std::string name;
   WorkflowConversion conversion;  // to metallic; source and target have alpha as width
-  MetallicReflection reflection;  // of the resulting metallic material
+  MetallicReflection reflection;  // reflectances of the resulting metallic material
 };
 
 // Returns the methods for plain diffuse. In order, they are equation (3) by both means with F0 0.03 and 0.04,

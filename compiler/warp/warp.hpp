@@ -19,7 +19,7 @@ struct WarpOptions {
 // A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
   int source_dimensions = 0, target_dimensions = 0;  // number of dimensions that each material needs
-  int dimensions = 0;                                // number in the warp
+  int dimensions = 0;                                // number of dimensions in the warp
   double source_stress = 0.0, target_stress = 0.0;   // stress with `dimensions` dimensions
   double coordinates_error = 0.0;  // the larger Placement::fit_error of both materials, in radii
   // number of dimensions that strokes determine; the prior determines the other dimensions

@@ -20,7 +20,7 @@ class RendererSet final : public Renderer {
   RendererSet(std::vector<WorkerEntry> workers, WorkerSettings settings);
   ~RendererSet() override;
 
-  // Names the built-in renderer and the workers that have been started.
+  // Returns the names of the built-in renderer and of the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
   // Returns the built-in models and the models of started workers; starts none.

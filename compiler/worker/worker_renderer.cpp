@@ -110,7 +110,8 @@ std::unique_ptr<Worker> WorkerRenderer::idle_worker() const {
   return worker;
 }
 
-// Returns a worker. A broken worker has ended, and has returned its licence, before another can be started.
+// Takes back a worker after its use. A broken worker has then ended, and has returned its licence, before
+// another worker can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
   if (worker != nullptr && !worker->is_usable()) worker.reset();
   {

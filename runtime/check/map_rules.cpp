@@ -267,8 +267,9 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;                  // alpha cuts a label of one color out
-    constexpr int kSmall = 4;  // images up to this side replace a number on purpose
+      return;  // alpha cuts a label of one color out
+    // people use images up to this side instead of a number, so a constant image is intended
+    constexpr int kSmall = 4;
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
       return;

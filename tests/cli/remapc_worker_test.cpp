@@ -178,7 +178,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   const FakeSession fake;
   auto arguments = sweep(fake, "a.csv", "oren-nayar");
   for (std::string& word : arguments)
-    if (word == "5") word = "8";  // changes the number of alphas, and below of speculars, to what a fit needs
+    if (word == "5") word = "8";  // a fit needs more alphas and, below, more speculars
   std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
   const std::string words = ": the source's light is multiplied by 1.";
   ProcessResult result = session.remapc(arguments);

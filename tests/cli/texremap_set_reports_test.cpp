@@ -16,7 +16,7 @@ class ReportedSets : public Tree {
     drawn(
         name, values.size(), [&](int, int, int c) { return values[static_cast<std::size_t>(c)]; }, size);
   }
-  // Writes a map of 8 bits from a function that returns its steps.
+  // Writes an 8-bit map. `steps` returns the integers of its texels.
   template <typename Steps>
   void drawn(const std::string& name, std::size_t channels, const Steps& steps, int size = 16) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());

@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// print_message() (command_line/run_app.hpp) shows at most so many bytes.
+// print_message() (command_line/run_app.hpp) shows at most this many bytes.
 inline constexpr std::size_t kLongestRefusal = 8000;
 
 template <typename Read>

@@ -141,7 +141,7 @@ struct AssetResource {
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
-  std::vector<std::string> warnings;     // about the file
+  std::vector<std::string> warnings;     // warnings about the file
   std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
   std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
   bool changed = false;                  // true if a material was converted

@@ -23,7 +23,7 @@ struct AssetImage {
   bool is_jpeg = false;
 };
 
-// A TextureInfo says how a material reads a texture.
+// A TextureInfo states how a material reads a texture.
 struct TextureInfo {
   SpanValue value;
   std::size_t texture = 0;

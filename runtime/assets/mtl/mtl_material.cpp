@@ -335,7 +335,8 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
     }
   }
   if (maker == MtlMaker::kText) return cover;
-  // Blender and others write these numbers although maps replace them, and illum 6 and 9 for any alpha.
+  // Blender and other programs write these numbers although maps replace them. They also write illum 6 and 9
+  // for any alpha.
   if (cover.opacity_map) cover.opacity = 1.0;
   if (cover.emissive_map) cover.has_emissive = false, cover.emissive = {};
   cover.refracts = false;

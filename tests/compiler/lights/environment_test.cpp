@@ -329,7 +329,7 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   CHECK(copy.rmse == 0.0);
   CHECK(copy.ssim == Approx(1.0).epsilon(1e-6));
   CHECK(copy.energy == 0.0);
-  // A match finds alpha again to 2e-7.
+  // A match of a model with itself finds its alpha to 2e-7.
   CHECK(means_of(result, Method::kNatural2).rmse < 1e-3);
   CHECK_THAT(environments_csv(options, result),
              Catch::Contains("# noise_percent: ") && !Catch::Contains("noise_percent: 0\n"));

@@ -162,8 +162,8 @@ TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking
   options.target = "mitsuba/ggx-plain";
   options.objective = objective_preset("paper");
   options.resolution = 128;
-  // These were found at 128^2 by another search, with formulas in NumPy: separable Smith against
-  // height-correlated.
+  // Another search found these values at 128^2, with formulas in NumPy. They convert from separable to
+  // height-correlated Smith shadowing.
   const std::vector<std::array<double, 3>> curve = {
       {0.3, 0.30007, 1.0003}, {0.6, 0.60543, 1.0114}, {0.75, 0.77122, 1.0363}, {0.85, 0.89633, 1.0723}};
   for (const auto& point : curve) options.samples.push_back({point[0], 0.5});
