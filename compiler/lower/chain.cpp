@@ -38,9 +38,10 @@ void require_links(const std::vector<Fit>& steps) {
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)
-      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " +
+      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " converts to " +
                                          side_text(steps[i - 1].target) + ", but " + steps[i].id +
-                                         " converts from " + side_text(steps[i].source));
+                                         " converts from " + side_text(steps[i].source) +
+                                         " (add a step between them)");
     if (!visited.insert(steps[i].target.model).second)
       throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
                                          " a second time (remove a step)");

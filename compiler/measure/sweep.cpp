@@ -68,7 +68,8 @@ void require_alphas(const SweepOptions& options, const ModelDescription& source)
   for (const SamplePoint& sample : options.samples)
     if (!source.alpha.contains(sample.alpha))
       throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
-                                         " is out of range (" + range_text(source.alpha) + ")");
+                                         " is out of range (choose samples from " + range_text(source.alpha) +
+                                         ")");
 }
 
 void require_speculars(const SweepOptions& options, const ProbedModel& source) {
@@ -76,7 +77,8 @@ void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   for (const SamplePoint& sample : options.samples)
     if (!speculars.contains(sample.specular))
       throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
-                                         " is out of range (" + range_text(speculars) + ")");
+                                         " is out of range (choose samples from " + range_text(speculars) +
+                                         ")");
 }
 
 // Pictures are floats: digits beyond the ninth carry no information.
