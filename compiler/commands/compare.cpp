@@ -130,7 +130,7 @@ void run(const CompareOptions& options) {
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> rows = answer_rows(table);
   if (rows.empty())
-    throw input_error(table.name + ": no usable rows (its column status has no match that succeeded)");
+    throw input_error(table.name + ": no usable rows (its column status shows no successful match)");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);
   const std::string digest = sha256(bytes);
