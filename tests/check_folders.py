@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""check_folders.py BUILT_TESTS: checks that a quick test covers each folder of sources.
+"""check_folders.py BUILT_TESTS checks that a quick test covers each folder of sources.
 
-BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake and CMake leave the labels of tests. The folders
-are those of the list in HACKING.md that hold .cpp files. Exit code 1 and a line for each that lacks one.
+BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake and CMake store the labels of
+tests. It checks the folders in the list of HACKING.md that contain .cpp files. For each folder without a quick test
+it prints a line, and the exit code is 1.
 """
 import re
 import sys
@@ -14,7 +15,7 @@ from includes import ROOT, listed_folders  # noqa: E402
 
 
 def quick_folders(built_tests):
-    """The folders that are labels of a quick test."""
+    """Returns the folders that are labels of a quick test."""
     folders = set()
     scripts = [*Path(built_tests).rglob("*_tests.cmake"), *Path(built_tests).rglob("CTestTestfile.cmake")]
     for script in scripts:

@@ -1,15 +1,17 @@
-# Runs after a test program is linked: writes a script that tells ctest of its cases.
-#   cmake -D PROGRAM=FILE -D NAME=NAME -D FOLDERS=FOLDER,... -D PROPERTIES=... -D SCRIPT=FILE -P discover_tests.cmake
-# The cases of a file that have neither [slow] nor [needs] are one test with the label quick: a start of a program that links
-# OpenImageIO takes a quarter of a second of processor time. Every other case is a test of its own, with these labels: quick with
-# [needs], which is what a case that may be skipped has; slow with [slow]; slow and campaign with [slow][campaign], which is longer
-# under REMAP_CAMPAIGN=full. A test has as a label, too, the folder of sources that its file mirrors (tests/compiler/table is that
-# of compiler/table), or FOLDERS where it mirrors none.
+# This script runs after a test program is linked. It writes a script that declares its cases to ctest.
 #
-# Names are kept in lists, so that semicolons and brackets are replaced while they are there.
+#   cmake -D PROGRAM=FILE -D NAME=NAME -D FOLDERS=FOLDER,... -D PROPERTIES=... -D SCRIPT=FILE -P discover_tests.cmake
+#
+# The cases of a file that have neither [slow] nor [needs] are one test with the label quick, because starting a
+# program that links OpenImageIO takes a quarter of a second of processor time. Every other case is a separate test,
+# with these labels: quick with [needs], which marks a case that may be skipped; slow with [slow]; slow and campaign
+# with [slow][campaign], which takes longer under REMAP_CAMPAIGN=full. Another label of a test is the folder of
+# sources that its file mirrors (tests/compiler/table mirrors compiler/table), or FOLDERS if it mirrors none.
+#
+# Names are kept in lists, so semicolons and brackets are replaced as long as they are there.
 cmake_minimum_required(VERSION 3.22)
 
-# Lines "file<tab>tags<tab>name", with a space before and after each tag.
+# The output has lines "file<tab>tags<tab>name", with a space before and after each tag.
 execute_process(COMMAND ${PROGRAM} --list-for-ctest OUTPUT_VARIABLE cases COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "<semicolon>" cases "${cases}")
 string(REPLACE "[" "<open>" cases "${cases}")
@@ -22,8 +24,8 @@ endif()
 get_filename_component(working_folder ${SCRIPT} DIRECTORY)
 set(script "")
 
-# add(NAME LABELS ARGUMENTS): a test of this program. ARGUMENTS is one text, [==[ARGUMENT]==] with spaces between them: a
-# name may have semicolons.
+# add(NAME LABELS ARGUMENTS) adds a test of this program. ARGUMENTS is one text, [==[ARGUMENT]==] with spaces between
+# them, because a name may contain semicolons.
 function(add name labels arguments)
   string(APPEND script
     "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] ${arguments})\n"

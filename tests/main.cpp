@@ -1,5 +1,5 @@
-// The main function of every test program. Its exit code is 0 where all cases passed, 77 where some of them
-// were skipped and the others passed, which ctest knows by SKIP_RETURN_CODE, and 1 otherwise.
+// This file has the main function of every test program. Its exit code is 0 if all cases passed. It is 77,
+// which ctest knows by SKIP_RETURN_CODE, if some cases were skipped and the others passed. Otherwise it is 1.
 #define CATCH_CONFIG_RUNNER
 #include <cstdlib>
 #include <iostream>
@@ -13,12 +13,12 @@
 
 namespace {
 
-// Of the running test case. A case may say the same several times.
+// These are reasons to skip the running test case. A case may give the same reason several times.
 std::set<std::string> reasons;
 bool is_listed_alone = false;
 bool any_skipped = false;
 
-// Before the first case.
+// Returns the functions that run before the first case.
 std::vector<void (*)()>& works() {
   static std::vector<void (*)()> all;
   return all;
@@ -50,7 +50,7 @@ class SkipListener : public Catch::TestEventListenerBase {
 };
 CATCH_REGISTER_LISTENER(SkipListener)
 
-// Each case that is not hidden, for discover_tests.cmake: file, tags with spaces between them, name.
+// Lists each case that is not hidden, for discover_tests.cmake: file, tags with spaces between them, name.
 void list_cases(const Catch::IConfig& config) {
   for (const Catch::TestCase& test : Catch::getAllTestCasesSorted(config)) {
     if (test.isHidden()) continue;
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   }
   if (session.applyCommandLine(argc, argv) != 0) return 1;
   for (void (*work)() : works()) work();
-  // A name that matches no case is an error: ctest would count it as passed.
+  // A name that matches no case is an error, because ctest would report it as passed.
   session.configData().warnings =
       static_cast<Catch::WarnAbout::What>(session.configData().warnings | Catch::WarnAbout::NoTests);
   if (session.run() != 0) return 1;

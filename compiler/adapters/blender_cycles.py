@@ -1,9 +1,10 @@
-"""Cycles: the Glossy BSDF with all its distributions, and Principled, in the module `bpy` (Blender 5) and Blender 3.4.
+"""Renders Cycles: the Glossy BSDF with all its distributions, and Principled, in the module `bpy` (Blender 5) and
+Blender 3.4.
 
-The sphere is a point cloud of one point, which Cycles intersects exactly; other shapes are meshes. With any filter,
-sample 0 of a pixel is its centre, so one sample is exact; an N x N grid is a larger picture, averaged. The masking
-function of GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix holds the version.
-This file must not be named cycles.py, because Blender would load it as its own add-on.
+The sphere is a point cloud of one point, which Cycles intersects exactly. Other shapes are meshes. With any filter,
+sample 0 of a pixel is its centre, so one sample is exact. An N x N grid is a larger picture that is averaged. The
+masking function of GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix
+contains the version. This file must not be named cycles.py, because Blender would load it as its own add-on.
 """
 import math
 import os
@@ -41,8 +42,9 @@ def other(name, least, most, default, **more):
     return parameter(name, "other", least, most, default=default, **more)
 
 
-# The whole Principled BSDF with its default distribution. Inputs are named as the sockets. Subsurface has noise, and transmission
-# and alpha show what is behind the sphere, so they are not here.
+# These are the inputs of the whole Principled BSDF with its default distribution, under the names of their sockets.
+# Subsurface is missing, because it has noise. Transmission and alpha are missing, because they show what is behind
+# the sphere.
 if MODERN:
     MODELS.append({"name": f"{PREFIX}/principled-whole", "parameters": [
         ROUGHNESS, parameter("specular_ior_level", "specular", 0, 1, grey=True), parameter("base_color", "diffuse", 0, 1),
@@ -75,7 +77,8 @@ def make_scene(threads):
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     render = scene.render
     render.use_persistent_data, render.resolution_percentage = True, 100
-    # Uses two threads at least: with one and persistent data, TBB of Blender 5.0 keeps a core busy between pictures.
+    # At least two threads are used, because with one thread and persistent data, TBB of Blender 5.0 keeps a core busy
+    # between pictures.
     render.threads_mode, render.threads = "FIXED", max(threads, 2)
     image = render.image_settings
     image.file_format, image.color_depth, image.exr_codec = "OPEN_EXR", "32", "NONE"
@@ -92,7 +95,7 @@ def make_scene(threads):
 
 
 def one_point(material):
-    """Makes a point cloud of one point of radius 1, by geometry nodes."""
+    """Makes a point cloud of one point with radius 1, by geometry nodes."""
     mesh = bpy.data.meshes.new("point")
     mesh.from_pydata([(0, 0, 0)], [], [])
     mesh.materials.append(material)
@@ -116,7 +119,8 @@ def one_point(material):
 
 
 def read_ply(path):
-    """Returns points and triangles of a mesh of the protocol: positions and normals as floats, then triangles."""
+    """Returns points and triangles of a mesh file of the protocol: positions and normals as floats, then triangles.
+    """
     with open(path, "rb") as file:
         head, body = file.read().split(b"end_header\n", 1)
     points, triangles = (int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element"))
@@ -145,7 +149,7 @@ shader_of = {"model": None}
 
 
 def shader(model):
-    """Returns the nodes of a model; they are remade when it changes."""
+    """Returns the nodes of a model. They are made again when the model changes."""
     if shader_of["model"] == model:
         return shader_of
     tree = bpy.data.materials["skin"].node_tree
@@ -218,10 +222,10 @@ def render(request, values):
     set_material(request["model"], values)
     show_shape(place)
     camera, lamp = scene.camera, scene.objects["lamp"]
-    camera.location = (0, 0, place["camera"]["distance"])  # without rotation it looks along -z with +y up
+    camera.location = (0, 0, place["camera"]["distance"])  # an unrotated camera looks along -z with +y up
     camera.data.angle = 2 * math.radians(place["camera"]["half_angle"])
     lamp.location = place["light"]["position"]
-    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts over all directions
+    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts of a lamp that shines in all directions
     side, samples = place["resolution"], place["samples_per_axis"]
     scene.render.resolution_x = scene.render.resolution_y = side * samples
     scene.cycles.seed = request["seed"]

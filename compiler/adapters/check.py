@@ -2,7 +2,8 @@
 
     python3 check.py [--json] [--resolution N] [--timeout SECONDS] WORKER_COMMAND...
 
-WORKER_COMMAND: the command of a worker, or the name of one in workers.json. The exit code is 1 if a check fails.
+WORKER_COMMAND is the command of a worker, or the name of a worker in workers.json. The exit code is 1 if a check
+fails.
 """
 import argparse
 import array
@@ -18,11 +19,11 @@ import sys
 import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-CAMERA = 3.0  # its distance; the sphere touches the edges of the picture
-HEADLIGHT, ASIDE, FAR = (0, 3), (60, 3), (0, 6)  # lights: angle, distance
-SAME = 2e-3  # larger differences are real; half floats are exact to 5e-4
-WIDE = 0.5  # the alpha of checks that need no peak
-# Renderers put these constants between their unit of light and radiant intensity.
+CAMERA = 3.0  # distance of the camera, at which the sphere touches the edges of the picture
+HEADLIGHT, ASIDE, FAR = (0, 3), (60, 3), (0, 6)  # lights, as angle and distance
+SAME = 2e-3  # larger differences are errors; half floats differ by up to 5e-4
+WIDE = 0.5  # an alpha whose highlight has no sharp peak
+# Renderers differ by these factors in what their unit of light means.
 FACTORS = {"pi": math.pi, "1 / pi": 1 / math.pi, "4 pi": 4 * math.pi, "1 / (4 pi)": 0.25 / math.pi, "4": 4, "1 / 4": 0.25}
 OWN_WIDTH = {"alpha": lambda a: a, "roughness": math.sqrt, "exponent": lambda a: 2 / a**2 - 2,
              "glossiness": lambda a: 1 - math.sqrt(a), "squared": lambda a: a**2}
@@ -35,7 +36,7 @@ class Refused(Exception):
 
 
 class Broken(Exception):
-    """The worker does not follow the protocol, or is gone: nothing more can be asked."""
+    """The worker broke the protocol or has ended, so that no further request is possible."""
 
 
 class Worker:
@@ -75,9 +76,9 @@ class Worker:
             self.process.stdin.write(json.dumps({"id": self.number, **request}).encode() + b"\n")
             self.process.stdin.flush()
         except BrokenPipeError:
-            pass  # line() detects the end
+            pass  # line() then reports that the worker has ended
         line = self.line()
-        while self.number == 1 and not line.startswith("{"):  # a banner
+        while self.number == 1 and not line.startswith("{"):  # skips a banner
             line = self.line()
         try:
             answer = json.loads(line)
@@ -113,7 +114,7 @@ class Worker:
 
 
 def normal(side, row, column):
-    """The point of the sphere that a pixel's centre shows; None beside it."""
+    """Returns the point of the sphere at a pixel's centre, or None beside the sphere."""
     half = 1 / math.sqrt(CAMERA**2 - 1)  # half the width of the picture at distance 1
     dx, dy = ((2 * (column + 0.5) / side - 1) * half, (1 - 2 * (row + 0.5) / side) * half)
     a = dx * dx + dy * dy + 1
@@ -139,7 +140,7 @@ class Picture:
         return self.made(self.side, lambda r, c: self.at(last - r, c) if rows else self.at(r, last - c))
 
     def every_third(self):
-        """The pixel centres of a picture a third as large."""
+        """Returns the pixel centres of a picture with a third of the side."""
         return self.made(self.side // 3, lambda r, c: self.at(3 * r + 1, 3 * c + 1))
 
     def mean_of_nine(self):
@@ -158,7 +159,7 @@ class Picture:
         return max(abs(v) for i, v in enumerate(self.values) if normal(self.side, i // self.side, i % self.side) is None)
 
     def centre(self):
-        """The mean position of the light, from -1 (left, bottom) to 1."""
+        """Returns the mean position of the light, from -1 (left, bottom) to 1."""
         light = sum(self.values)
         if not light > 0:
             return 0, 0
@@ -167,14 +168,14 @@ class Picture:
                 -sum(v * places[i // self.side] for i, v in enumerate(self.values)) / light)
 
     def within(self):
-        """The indices of pixels whose neighbours show the sphere, too: the cosine to the camera is above 0.2."""
+        """Yields the pixels whose neighbours show the sphere, too: there, the cosine to the camera is above 0.2."""
         for i in range(self.side**2):
             n = normal(self.side, i // self.side, i % self.side)
             if n and (CAMERA * n[2] - 1) / math.dist(n, (0, 0, CAMERA)) > 0.2:
                 yield i
 
     def difference(self, other):
-        """RMS, relative to that of this picture."""
+        """Returns the RMS difference from `other`, relative to the RMS of this picture."""
         square = power = 0.0
         for i in self.within():
             square += (self.values[i] - other.values[i])**2
@@ -182,14 +183,14 @@ class Picture:
         return math.sqrt(square / max(power, 1e-30)) if square else 0.0
 
     def over(self, unit):
-        """The least squares factor from `unit` to this picture."""
+        """Returns the least squares factor by which this picture is brighter than `unit`."""
         pairs = [(self.values[i], unit.values[i]) for i in self.within()]
         power = sum(y * y for _, y in pairs)
         return sum(x * y for x, y in pairs) / power if power > 0 else 0.0
 
 
 def lambertian(side, light):
-    """A Lambertian sphere of albedo 1 under a light of radiant intensity 1."""
+    """Returns the picture of a Lambertian sphere of albedo 1 under a light of radiant intensity 1."""
     x, z = light[1] * math.sin(math.radians(light[0])), light[1] * math.cos(math.radians(light[0]))
 
     def pixel(row, column):
@@ -212,7 +213,7 @@ class ModelCheck:
         self.noise = model.get("noise", False)
         self.role = {parameter["role"]: parameter for parameter in model["parameters"]}
         self.low, self.high = self.role["specular"]["range"]
-        self.material(WIDE, self.low, 0)  # needs every field of the description
+        self.material(WIDE, self.low, 0)  # this needs every field of the description
 
     def run(self):
         try:
@@ -247,7 +248,7 @@ class ModelCheck:
         return self.take(self.material(alpha, self.high, 0), light, **more)
 
     def diffuse(self, share, light):
-        """The light that diffuse adds."""
+        """Returns the light that diffuse adds to a picture."""
         full = self.role["diffuse"]["range"][1]
         lit, dark = (self.take(self.material(WIDE, self.low, value), light) for value in (share * full, 0))
         return lit.minus(dark)
@@ -269,7 +270,7 @@ class ModelCheck:
             self.add(check, "wrong", otherwise)
 
     def geometry(self):
-        """Where the light is: background, symmetry, left and right."""
+        """Checks where the light is: background, symmetry, left and right."""
         front = self.highlight(WIDE)
         top = front.brightest()
         if not top > 0:
@@ -295,7 +296,7 @@ class ModelCheck:
                    f"a light at +60 degrees lights {where} of the picture, not the right: {why}")
 
     def light(self):
-        """Diffuse light against Lambert's law: intensity, inverse square, linearity."""
+        """Checks diffuse light against Lambert's law: intensity, inverse square, linearity."""
         if "diffuse" not in self.role:
             self.add("light scale", "remark", "unknown: the model has no diffuse parameter")
             return
@@ -324,7 +325,7 @@ class ModelCheck:
                    f"{max(exponent, 1 / exponent):.2g}")
 
     def values(self):
-        """What storage or tone mapping did to the values."""
+        """Finds traces of storage or tone mapping in the values."""
         sharp = self.highlight(0.1)
         top = max(sharp.values)
         flat = sum(v == top for v in sharp.values)
@@ -333,13 +334,13 @@ class ModelCheck:
         told = [v for channel in sharp.channels for v in channel if v not in (0, 1)]
         if all(abs(255 * v - round(255 * v)) < 1e-4 for v in told):
             self.add("precision", "wrong", "values have 8 bits (write floats)")
-        elif all(struct.unpack("<I", struct.pack("<f", v))[0] & 0x1fff == 0 for v in told):  # 10 of 23 bits
+        elif all(struct.unpack("<I", struct.pack("<f", v))[0] & 0x1fff == 0 for v in told):  # only 10 of 23 bits are used
             self.add("precision", "remark", "values are half floats: steps of 0.05 %")
         else:
             self.add("precision", "good", "floats")
 
     def repeats(self):
-        """The same picture with another between, and the same with another seed."""
+        """Checks that a picture is the same after another one, and with another seed."""
         first = self.highlight(0.3, ASIDE)
         self.highlight(WIDE)
         again = first.difference(self.highlight(0.3, ASIDE))
@@ -356,7 +357,7 @@ class ModelCheck:
             self.add("noise", "good", "none")
 
     def samples(self):
-        """The pixel centres of a picture are among those of a picture three times as large."""
+        """Checks that a picture has its pixel centres in common with a picture three times as large."""
         if self.noise:
             self.add("pixel centres", "remark", "not checked: the model has noise")
             return
@@ -370,7 +371,7 @@ class ModelCheck:
                    f"3 x 3 samples in a pixel differ by {percent(grid)} from the mean of nine pixels (sample an even grid)")
 
     def color(self):
-        """Channels are independent and in order."""
+        """Checks that channels are independent and in order."""
         values = [self.low + share * (self.high - self.low) for share in (1, 0.5, 0.25)]
         try:
             picture = self.take(self.material(WIDE, values, 0))
@@ -386,14 +387,15 @@ class ModelCheck:
         self.judge("color", not wrong, "red, green, blue", wrong)
 
     def width(self):
-        """A wider highlight has more light relative to its peak."""
+        """Checks that a wider highlight has more light relative to its peak."""
         spreads = [sum(picture.values) / max(picture.brightest(), 1e-30) for picture in map(self.highlight, (0.15, 0.3, 0.6))]
         self.judge("width", spreads[0] < spreads[1] < spreads[2], "a larger alpha is a wider highlight",
                    "highlights do not widen from alpha 0.15 to 0.3 and 0.6 (check the convention)")
 
 
 def command_of(words):
-    """The command of the worker of that name in a file workers.json, or else the words themselves."""
+    """Returns the command of the worker of that name in workers.json, or the words themselves if no worker has the
+    name."""
     config = pathlib.Path(os.environ.get("XDG_CONFIG_HOME") or "~/.config").expanduser() / "remap/workers.json"
     data = pathlib.Path(os.environ.get("XDG_DATA_HOME") or "~/.local/share").expanduser()
     os.environ.setdefault("REMAP_RENDERERS", str(data / "remap/renderers"))
@@ -406,7 +408,7 @@ def command_of(words):
 
 
 def checked(worker, side):
-    """The name of the renderer, and what was found."""
+    """Returns the name of the renderer, and the results of the checks."""
     described, findings = worker.ask(request="describe", protocol=1, threads=os.cpu_count()), []
     for model in described["models"]:
         check = ModelCheck(worker, model, side)
@@ -426,7 +428,7 @@ def main():
     options = parser.parse_args()
     if not options.command:
         parser.error("name the command of a worker")
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the worker must not stay behind
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # otherwise the worker would keep running
     with tempfile.TemporaryDirectory(prefix="remap-check-") as folder:
         worker = Worker(command_of(" ".join(options.command)), pathlib.Path(folder), options.timeout)
         try:

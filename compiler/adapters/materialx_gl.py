@@ -1,8 +1,10 @@
-"""MaterialX: OpenPBR, standard_surface, glTF PBR and UsdPreviewSurface, as the shaders that it generates for OpenGL show them.
+"""Renders MaterialX: OpenPBR, standard_surface, glTF PBR and UsdPreviewSurface, as shaders that MaterialX generates
+for OpenGL.
 
-Prefix and name of a model hold the versions of MaterialX and of the definition, because both change pictures. Lights are the only
-light, so what is seen through a transparent surface is black. The tangent of anisotropy runs from left to right.
-This file must not be named materialx.py, because on some systems it would be imported instead of the library.
+Prefix and name of a model contain the versions of MaterialX and of the definition, because both change pictures.
+Nothing but the lights is bright, so what is seen through a transparent surface is black. The tangent of anisotropy
+runs from left to right. This file must not be named materialx.py, because on some systems it would be imported
+instead of the library.
 """
 import os
 
@@ -11,26 +13,30 @@ from worker_loop import Refused, grey_or_rgb, parameter, serve
 
 PREFIX = f"materialx-{shaders.mx.getVersionString()}"
 
-# The inputs of the roles roughness, specular and diffuse. The diffuse lobes of OpenPBR and UsdPreviewSurface lose light at grazing
-# angles even if nothing is reflected, so light cannot be matched by them.
+# These inputs have the roles roughness, specular and diffuse. OpenPBR and UsdPreviewSurface have no diffuse here.
+# Their diffuse lobes lose light at grazing angles even if nothing is reflected, so they cannot be used to match
+# light.
 ROLES = {"open_pbr_surface": ("specular_roughness", "specular_weight"),
          "standard_surface": ("specular_roughness", "specular", "base_color"),
          "gltf_pbr": ("roughness", "specular", "base_color"),
          "UsdPreviewSurface": ("roughness", "specularColor")}
-# Values that differ from those of the definition: each model starts as a highlight of a dielectric, without diffuse.
+# These defaults differ from the definition, so that each model starts as a highlight of a dielectric, without
+# diffuse.
 STARTS = {"open_pbr_surface": {"base_color": 0}, "gltf_pbr": {"metallic": 0},
           "UsdPreviewSurface": {"useSpecularWorkflow": 1, "diffuseColor": 0}}
 SHORT = {"open_pbr_surface": "open_pbr", "UsdPreviewSurface": "usd_preview_surface"}
 
 LEAST_ROUGHNESS = 0.02  # the highlight of a smoother lobe is smaller than a pixel of most pictures
-MOST = 1000  # of inputs whose definition has no upper end: depths, distances, strengths
-CHOICES = {"alpha_mode": 2, "opacityMode": 1}  # the highest number of integers that choose
+MOST = 1000  # limit of inputs whose definition has no upper end: depths, distances, strengths
+# inputs whose integer is one of several choices, with the largest integer
+CHOICES = {"alpha_mode": 2, "opacityMode": 1}
 KINDS = ("float", "color3", "integer", "boolean")
-UNUSED = ("displacement",)  # it moves vertices
+UNUSED = ("displacement",)  # displacement moves vertices, which this sphere does not have
 
 
 def range_of(given):
-    """Returns the range that the definition of an input states; of an index of refraction or an Abbe number, the one that it suggests."""
+    """Returns the range of an input in its definition. For an index of refraction or an Abbe number, it prefers the
+    range that user interfaces suggest."""
     ends = []
     for hard, soft in (("uimin", "uisoftmin"), ("uimax", "uisoftmax")):
         first, second = (soft, hard) if given.getName().lower().endswith(("ior", "abbe_number")) else (hard, soft)
@@ -43,7 +49,7 @@ def range_of(given):
 
 
 def decimal(default):
-    """Returns a default as people write it: OpenGL has it as a float."""
+    """Returns a default with the digits that people write, because OpenGL stores it as a float."""
     return float(f"{default[0] if isinstance(default, tuple) else default:.6g}")
 
 
@@ -59,7 +65,7 @@ def described(given, role, default):
 
 
 def parameters_of(model):
-    """Returns the parameters of a model: all inputs but vectors, which are normals and tangents."""
+    """Returns the parameters of a model: all inputs except vectors, which are normals and tangents."""
     shader = shaders.model_shader(model)
     defaults = {**shader.defaults, **STARTS.get(model, {})}
     roles = dict(zip(ROLES[model], ("roughness", "specular", "diffuse")))
@@ -67,7 +73,7 @@ def parameters_of(model):
     return [described(one, roles.get(one.getName(), "other"), defaults.get(one.getName(), 0)) for one in inputs]
 
 
-models = {}  # of MaterialX, by the names of the protocol
+models = {}  # names of models in MaterialX, by their names in the protocol
 
 
 def describe(threads):
@@ -81,7 +87,7 @@ def describe(threads):
 
 
 def input_values(shader, values):
-    """Returns values as inputs take them. A number between two choices is refused."""
+    """Returns values in the types of the inputs. Refuses a number between two choices."""
     for name, kind in shader.types.items():
         if kind in ("integer", "boolean") and name in values and values[name][0] != int(values[name][0]):
             raise Refused(f"{name} = {values[name][0]} is not an integer")

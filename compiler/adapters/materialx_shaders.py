@@ -1,18 +1,20 @@
-"""Shaders of MaterialX, generated, compiled and rendered on a sphere without a window (EGL, llvmpipe, float32).
+"""Generates and compiles shaders of MaterialX, and renders them on a sphere without a window (EGL, llvmpipe,
+float32).
 
 A `Shader` is one of the four models (`model_shader`), or a surface node of a document. It renders any number of
 directional and point lights in one pass: a light, or an environment of up to MOST_LIGHTS lights.
 
-The generated pixel stage takes normals and positions from a vertex stage. Here it computes them itself for each pixel of a triangle
-that covers the picture, so the sphere is exact, and fwidth, from which MaterialX takes the curvature for subsurface, has neighbours.
+The generated pixel stage gets normals and positions from a vertex stage. Here, it computes them itself for each pixel
+of a triangle that covers the picture, so the sphere is exact. fwidth then has neighbours, from which MaterialX
+computes the curvature for subsurface.
 """
 import dataclasses
 import functools
 import os
 import re
 
-os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")  # a picture must not depend on the graphics card
-os.environ.setdefault("LP_NUM_THREADS", "1")  # of llvmpipe; pictures do not depend on it
+os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")  # pictures must not depend on the graphics card
+os.environ.setdefault("LP_NUM_THREADS", "1")  # llvmpipe uses this many threads; pictures do not depend on them
 
 import MaterialX as mx  # noqa: E402
 import MaterialX.PyMaterialXGenGlsl as mx_glsl  # noqa: E402
@@ -28,7 +30,7 @@ VERTEX = """#version 400
 void main() { gl_Position = vec4(4.0 * float(gl_VertexID == 1) - 1.0, 4.0 * float(gl_VertexID == 2) - 1.0, 0.0, 1.0); }
 """
 
-# Stands around the generated main: a ray through the centre of the pixel meets the unit sphere.
+# This is inserted around the generated main. In it, a ray through the centre of the pixel meets the unit sphere.
 SPHERE = """
 uniform float remap_side;
 uniform float remap_distance;  // of the camera, in radii
@@ -70,7 +72,7 @@ FILLS = {"normalWorld": "normal", "normalObject": "normal", "tangentWorld": "tan
 
 
 class Unusable(Exception):
-    """A document or a value that cannot be rendered; the text says why."""
+    """A document or a value cannot be rendered. The text says why."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,7 +90,8 @@ def sun(angle, color=(1.0, 1.0, 1.0)):
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
-    """A camera on the z axis that looks at the origin. A half angle of 0 degrees is an orthographic one, which the sphere fills."""
+    """A camera on the z axis looks at the origin. With a half angle of 0 degrees it is orthographic, and the sphere
+    fills the picture."""
     distance: float = 1e5
     half_angle: float = 0.0
 
@@ -99,7 +102,8 @@ def search_path():
 
 @functools.cache
 def libraries(own=None):
-    """Returns the document with the standard libraries of MaterialX. The file `own` comes first: the first of a name is kept."""
+    """Returns the document with the standard libraries of MaterialX. The file `own` is read first, and the first
+    definition of a name is kept."""
     document = read_xml(own) if own else mx.createDocument()
     standard = mx.createDocument()
     mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), standard)
@@ -126,7 +130,8 @@ def validated(document, path):
 
 
 def read_document(path):
-    """Returns the document of a file, with the standard libraries behind it. A file that is missing or not valid is Unusable."""
+    """Returns the document of a file, followed by the standard libraries. Raises Unusable if the file is missing or
+    not valid."""
     document = read_xml(path)
     document.setDataLibrary(libraries())
     return validated(document, path)
@@ -173,7 +178,8 @@ def generate(node):
 
 
 def replace_once(text, old, new):
-    """Replaces the one place that matches `old`. A generator that writes something else is noticed here."""
+    """Replaces the only place that matches `old`. Raises Unusable if there is not exactly one, because another
+    generator may write something else."""
     text, count = re.subn(old, lambda _: new, text, flags=re.DOTALL)
     if count != 1:
         raise Unusable(f"the generated shader has {count} places of `{old}` instead of one (another version of MaterialX?)")
@@ -181,7 +187,8 @@ def replace_once(text, old, new):
 
 
 def on_a_sphere(pixel_stage):
-    """Returns the pixel stage with its own sphere, and with point lights that fall with the square of the distance."""
+    """Returns the pixel stage with its own sphere, and with point lights that fall off with the square of the
+    distance."""
     members = re.search(r"in VertexData\s*\{(.*?)\}\s*vd;", pixel_stage, re.DOTALL)[1]
     names = re.findall(r"(\w+);", members)
     unknown = [name for name in names if name not in FILLS]
@@ -209,7 +216,8 @@ def input_types(node):
 
 
 class Shader:
-    """A compiled surface shader. Its values are the inputs of its node, or of `entry`, the first of the nodes that feed it."""
+    """A compiled surface shader. Its values are the inputs of its node. For a chain of nodes they are the inputs
+    of `entry`, the first node."""
 
     def __init__(self, node, entry=None):
         self.name = (entry or node).getCategory()
@@ -229,7 +237,7 @@ class Shader:
             self.program[name].value = value
 
     def set_values(self, values):
-        """Sets the inputs; those that `values` does not have get back the values of the node."""
+        """Sets the inputs. Inputs that `values` lacks get the values of the node again."""
         unknown = set(values) - set(self.types)
         if unknown:
             raise Unusable(f"{self.name} has no input {', '.join(sorted(unknown))}")
@@ -251,7 +259,7 @@ class Shader:
                 self.set(f"u_lightData[{i}].position", tuple(vector.tolist()))
 
     def render(self, values, lights, resolution, camera=Camera()):
-        """Returns the linear radiance, resolution x resolution x 3, top row first; pixels beside the sphere are 0."""
+        """Returns the linear radiance, resolution x resolution x 3, top row first. Pixels beside the sphere are 0."""
         self.set_values(values)
         self.set_lights(lights)
         self.set("u_viewPosition", (0.0, 0.0, float(camera.distance)))
@@ -266,7 +274,7 @@ class Shader:
 
 
 def uniform(kind, value):
-    """Returns a value of an input as OpenGL takes it."""
+    """Returns a value of an input in the form that OpenGL needs."""
     if kind in ("color3", "vector3"):
         return tuple(np.broadcast_to(np.asarray(value, float), 3).tolist())
     number = float(np.asarray(value, float).reshape(()))
@@ -283,9 +291,10 @@ def model_shader(model):
 
 @functools.cache
 def chain_shader(models, own=None):
-    """Returns a shader that takes values of the first of `models`, and shows the last one, by translations of MaterialX.
+    """Returns a shader that has the inputs of the first of `models` and shows the last one, by translations of
+    MaterialX.
 
-    Translations of the file `own` come before the official ones.
+    Translations in the file `own` are preferred to the official ones.
     """
     document = mx.createDocument()
     document.setDataLibrary(libraries(own))
@@ -302,7 +311,7 @@ def chain_shader(models, own=None):
 
 
 def model_of(name):
-    """Returns the model of a target: a translation may have a second form, such as UsdPreviewSurface_specular."""
+    """Returns the model of a target. A translation may have a second form, such as UsdPreviewSurface_specular."""
     return name.removesuffix("_specular").removesuffix("_core")
 
 

@@ -1,7 +1,7 @@
-"""Mitsuba 3, variant scalar_rgb: rough conductors without Fresnel, rough plastic, the principled BSDF.
+"""Renders Mitsuba 3, variant scalar_rgb: rough conductors without Fresnel, rough plastic, the principled BSDF.
 
-The sampler `stratified` without jitter gives an exact N x N grid, and the box filter does not blur. To add diffuse to
-a conductor, the two are blended in equal halves under a light twice as bright.
+The sampler `stratified` without jitter gives an exact N x N grid, and the box filter does not blur. A conductor has
+no diffuse. To add it, both lobes are blended in equal halves under a light twice as bright.
 """
 import collections
 import math
@@ -19,7 +19,8 @@ MODELS = [
                                             parameter("diffuse", "diffuse", 0, 1)]},
     {"name": "mitsuba3/beckmann", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                  parameter("diffuse", "diffuse", 0, 1)]},
-    # This has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the reflected light.
+    # This plastic has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the
+    # reflected light.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
                                                 parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},
@@ -34,7 +35,7 @@ MODELS = [
 ]
 
 scenes = collections.OrderedDict()
-MOST_SCENES = 8  # one for each model, resolution and light; a sweep needs a few
+MOST_SCENES = 8  # each model, resolution and light needs a scene, and a sweep uses few
 
 
 def describe(threads):
@@ -84,7 +85,7 @@ def make_scene(model, values, scene):
 
 
 def scene_of(model, values, scene):
-    """Returns a scene. Those of conductors are kept and updated; remaking the others takes a millisecond."""
+    """Returns a scene. Scenes of conductors are kept and updated. Other scenes take only a millisecond to make."""
     if model not in ("mitsuba3/ggx", "mitsuba3/beckmann"):
         return make_scene(model, values, scene)
     key = (model, scene["resolution"], scene["samples_per_axis"], tuple(scene["light"]["position"]),

@@ -1,12 +1,15 @@
-"""Materials of MuJoCo: Blinn's half-vector lobe, not normalised, with n = 128 times shininess, as OpenGL 1 lights it.
+"""Renders materials of MuJoCo: Blinn's half-vector lobe, not normalised, with n = 128 times shininess, as OpenGL 1
+lights it.
 
-MuJoCo computes in the values that a display shows, without a transfer curve. `material` takes these numbers as linear ones;
-`material-linear` is what its windows show on a display of gamma 2.2: specular and diffuse are linear, encoded for MuJoCo, and the
-picture is decoded. Its lights do not fall with the distance unless a file says so; the fall of the scene is applied to the picture.
+MuJoCo computes in the values that a display shows, without a transfer curve. The model `material` treats these
+numbers as linear. The model `material-linear` is what its windows show on a display of gamma 2.2: specular and
+diffuse are linear and are encoded for MuJoCo, and the picture is decoded. MuJoCo's lights do not fall off with the
+distance unless a file says so, so this program applies the falloff to the picture.
 
-Its framebuffer has 8 bits and clamps to 1. A picture is rendered under brighter and brighter light, and each pixel is taken from the
-brightest that does not clamp it. The sphere is a grid so fine that lighting its corners is lighting its pixels.
-This file must not be named mujoco.py, because it would be imported instead of the library.
+The framebuffer has 8 bits and clamps to 1. A picture is rendered under brighter and brighter light, and each pixel
+comes from the brightest picture that does not clamp it. MuJoCo lights only corners, so the sphere is a grid with
+corners as close as pixels. This file must not be named mujoco.py, because it would be imported instead of the
+library.
 """
 import os
 
@@ -19,13 +22,13 @@ from worker_loop import grey_or_rgb, parameter, serve  # noqa: E402
 
 EXPONENTS = (1.28, 128)  # shininess 0.01 to 1
 LOBE = [parameter("exponent", "roughness", *EXPONENTS, convention="exponent"), parameter("specular", "specular", 0, 1)]
-# The precision is a step of 8 bits under the brightest light. Seen through a display, its diffuse is not Lambertian, and
-# adds to no highlight.
+# The precision is a step of 8 bits under the brightest light. After decoding, the diffuse light of `material-linear`
+# is not Lambertian and does not add to a highlight.
 MODELS = [{"name": "mujoco/material", "precision": 2e-3, "parameters": [*LOBE, parameter("diffuse", "diffuse", 0, 1)]},
           {"name": "mujoco/material-linear", "precision": 2e-3, "parameters": [*LOBE, parameter("diffuse", "other", 0, 1, default=0)]}]
 
-STEP, STEPS = 4, 7  # ratio of light between exposures; at the first, white is a quarter
-CLAMPED = 250  # of 255
+STEP, STEPS = 4, 7  # ratio of light between exposures; in the first, white is a quarter
+CLAMPED = 250  # a pixel with at least this value, of 255, may be clamped
 GRID = 512  # slices and stacks of the sphere
 GAMMA = 2.2
 
@@ -50,7 +53,7 @@ def describe(_threads):
 
 
 class Stage:
-    """The scene and the window for one size of picture."""
+    """Holds the scene and the window for one size of picture."""
 
     def __init__(self, side, camera):
         self.model = mujoco.MjModel.from_xml_string(SCENE.format(
@@ -62,7 +65,7 @@ class Stage:
         self.renderer.close()
 
     def values(self, light, specular, shininess, rgb):
-        """What OpenGL computes under a light of 1, unclamped."""
+        """Returns what OpenGL computes under a light of 1, without clamping."""
         self.model.mat_specular[0] = specular
         self.model.mat_shininess[0] = shininess
         self.model.mat_rgba[0] = [*rgb, 1]
@@ -97,7 +100,7 @@ def stage(side, camera):
 
 
 def squared_distances(side, camera, light):
-    """From the light to what the pixel centres show of the sphere; 1 elsewhere."""
+    """Returns the squared distances from the light to the points that pixels show, and 1 for other pixels."""
     half, distance = np.tan(np.radians(camera["half_angle"])), camera["distance"]
     axis = (2 * (np.arange(side) + 0.5) / side - 1) * half
     x, y = np.meshgrid(axis, -axis)
@@ -119,7 +122,7 @@ def render(request, values):
     if is_linear:
         specular, rgb = specular ** (1 / GAMMA), rgb ** (1 / GAMMA)
     shininess = values["exponent"][0] / 128
-    # Its specular is one number, so a color needs one picture per channel.
+    # MuJoCo's specular is one number, so a color needs one picture per channel.
     if len(set(specular)) == 1:
         picture = place.values(light["position"], specular[0], shininess, rgb)
     else:

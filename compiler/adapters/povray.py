@@ -1,9 +1,10 @@
-"""POV-Ray 3.7: its specular (Blinn) and Phong highlights, one process for each picture.
+"""Renders POV-Ray 3.7: its specular (Blinn) and Phong highlights, in one process for each picture.
 
-Both are powers of a cosine, without the cosine of the light, normalisation or Fresnel. POV-Ray's `specular` takes
-`roughness`; its inverse, the exponent, is used here, so that both models have the same parameter. POV-Ray's diffuse
-lacks the factor 1 / pi, which is applied to the lamp instead. The lamp falls off with the square of the distance d by
-`fade_power 2` and a tiny `fade_distance` f, as 2 f^2 / d^2. Pictures are OpenEXR with half floats: 11 bits.
+Both are powers of a cosine, without the cosine of the light, normalisation or Fresnel. POV-Ray's `specular` has
+`roughness`. Its inverse, the exponent, is used here, so that both models have the same parameter. POV-Ray's diffuse
+lacks the factor 1 / pi, so the factor is applied to the lamp instead. The lamp falls off with the square of the
+distance d by `fade_power 2` and a tiny `fade_distance` f, as 2 f^2 / d^2. Pictures are OpenEXR with half floats: 11
+bits.
 """
 import math
 import os

@@ -19,7 +19,8 @@ ENVIRONMENT = {**os.environ, "RAYPATH": os.path.join(HOME, "lib")}
 LAMP_RADIUS = 1e-3  # any radius from 1e-4 to 0.1 gives the same picture to 1e-7
 OPTIONS = "-h -fff -ov -ab 0 -lr 0 -st 1 -dj 0 -ds 0 -dt 0 -dv- -n 1".split()
 
-# A width up to 1e-6 is a mirror. `plastic` multiplies its diffuse by 1 - specular; the parameter here is the product.
+# A width up to 1e-6 is a mirror. `plastic` multiplies its diffuse by 1 - specular, and the parameter here is this
+# product.
 MODELS = [
     {"name": "radiance/plastic", "parameters": [parameter("roughness", "roughness", 1e-4, 1, convention="alpha"),
                                                 parameter("specularity", "specular", 0, 1, grey=True),
@@ -67,7 +68,7 @@ def material_of(model, values):
         red, green, blue = grey_or_rgb(values["reflectance"])
         return f"void metal skin 0 0 5 {red!r} {green!r} {blue!r} 1 {width!r}"
     specular = values["specularity"][0]
-    # Avoid a division by 0, because at specularity 1 `plastic` has no diffuse.
+    # This avoids a division by 0, because at specularity 1 `plastic` has no diffuse.
     left = max(1 - specular, 1e-9)
     red, green, blue = (value / left for value in grey_or_rgb(values["diffuse"]))
     return f"void plastic skin 0 0 5 {red!r} {green!r} {blue!r} {specular!r} {width!r}"

@@ -1,8 +1,8 @@
-"""VTK's physically based shading of a metal: GGX with Schlick's Fresnel.
+"""Renders VTK's physically based shading of a metal: GGX with Schlick's Fresnel.
 
-To avoid tessellation, each pixel centre is one vertex on the exact sphere, with its normal. Pixels are read from a float
-framebuffer, in which VTK encodes radiance with the power 1 / 2.2.
-This file must not be named vtk.py, because it would be imported instead of the library.
+To avoid tessellation, each pixel centre is one vertex on the exact sphere, with its normal. Pixels are read from a
+float framebuffer, in which VTK encodes radiance with the power 1 / 2.2. This file must not be named vtk.py, because
+it would be imported instead of the library.
 """
 import math
 
@@ -35,7 +35,7 @@ def sphere_points(size, camera):
 
 
 class Stage:
-    """The window, points, camera and lamp for one size of picture."""
+    """Holds the window, points, camera and lamp for one size of picture."""
 
     def __init__(self, size, camera):
         points = sphere_points(size, camera)

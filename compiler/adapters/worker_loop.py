@@ -1,4 +1,4 @@
-"""The protocol loop of a worker (PROTOCOL.md), for a renderer module with a description and a function that renders.
+"""Runs the protocol (PROTOCOL.md) of a worker, for a renderer module with a description and a function that renders.
 
 Standard output of the renderer is redirected to standard error, so that standard output holds answers only.
 """
@@ -51,7 +51,8 @@ def write_picture(request, picture):
 
 
 def serve(describe, render):
-    """Answers requests. `describe(threads)` returns renderer and models; `render(request, values)` a picture, top row first."""
+    """Answers requests. `describe(threads)` returns renderer and models. `render(request, values)` returns a picture,
+    top row first."""
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)
 
@@ -79,7 +80,7 @@ def serve(describe, render):
                 raise Refused(f"unexpected request {request['request']} (send describe first, then render or quit)")
         except Refused as refused:
             answer(id=number, error=str(refused))
-        except Exception as failure:  # errors of the renderer are answers, too
+        except Exception as failure:  # errors of the renderer become answers
             answer(id=number, error=f"{type(failure).__name__}: {failure}".replace("\n", " "))
     sys.stderr.flush()
     os._exit(0)  # some renderers abort during the shutdown of the interpreter

@@ -85,7 +85,8 @@ class Builder {
   }
 
  private:
-  // Removes vanished items from the lock. If its fit still exists, an item stays, so a later build prunes it.
+  // Removes vanished items from the lock. An item whose fit still exists stays, so that a later build can
+  // delete the fit.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
@@ -245,7 +246,7 @@ class Builder {
     options.source = item.metallic;
     options.target = item.specular;
     options.source_roles.fixed = item.fixed;
-    options.objective = recorded_objective("natural");  // a manifest names none for samples
+    options.objective = recorded_objective("natural");  // A manifest cannot choose the objective of samples.
     options.resolution = item.resolution;
     options.count = item.count;
     options.seed = seed;

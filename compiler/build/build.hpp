@@ -24,10 +24,11 @@ struct BuildExecution {
   const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
-// A BuildSeconds is the time of an item, in seconds of its only thread, or 0 if it was up to date.
+// A BuildSeconds says how long the thread of an item worked, in seconds. All numbers are 0 if the item was up
+// to date.
 struct BuildSeconds {
-  double sweep = 0.0;     // the table, or the samples of a network, including waiting for pictures
-  double pictures = 0.0;  // the part of it that waits for the renderer
+  double sweep = 0.0;     // for the table, or the samples of a network; includes waiting for pictures
+  double pictures = 0.0;  // the part of `sweep` spent waiting for the renderer
   double fit = 0.0;
   double lowering = 0.0;  // including its proofs
   double all = 0.0;
@@ -53,11 +54,11 @@ struct BuildResult {
   std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 
-// Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the data of
-// all converters of the folder and the report. Each item is swept and fitted by one thread. An item that
-// fails does not stop the others, but then the data of converters and the report are not made. Finished items
+// Makes every item of `manifest` whose recipe, inputs or files changed since the last build. It then writes
+// the data of all converters of the folder, and the report. One thread sweeps and fits each item. If an item
+// fails, the other items are still made, but the data of converters and the report are not. Finished items
 // stay. If a renderer is not installed, even `force` reuses a table made by the same recipe. Without such a
-// table, the item fails. Pruning deletes only files that have not been changed after their build.
+// table, the item fails. Pruning deletes only files that nobody changed after the build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);
 
@@ -67,8 +68,8 @@ Fit composed_fit(const std::vector<Fit>& steps, const std::string& id);
 // Returns the items of earlier builds that are no longer in the manifest and whose fits still exist, by id.
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders);
 
-// Returns what build() would make and why, one line each. It also lists vanished items, and fits whose table
-// was changed after the fit. It is empty if everything is up to date.
+// Returns a line for each item that build() would make, with the reason. It also lists vanished items, and
+// fits whose table was changed after the fit. It is empty if everything is up to date.
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders);
 
 }  // namespace remap

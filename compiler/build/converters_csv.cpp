@@ -90,8 +90,8 @@ void add_pictures(const Fit& fit, Row* row) {
   (*row)["ssim_least_at_alpha"] = figure(least->alpha);
 }
 
-// Adds the larger of the relative changes of alpha and specular after a round trip through the converter of
-// the other direction.
+// Adds how well the opposite converter restores a texel: the larger of the relative changes of alpha and
+// specular.
 void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
   const auto back = pairs.find({fit.target.model, fit.source.model});
   if (!is_measured(fit) || back == pairs.end()) return;

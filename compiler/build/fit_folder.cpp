@@ -21,7 +21,7 @@ void FitFolder::add(AnyFit fit) {
 
 namespace {
 
-// A folder called `fits` counts only if it contains a fit.
+// A folder called `fits` is used only if it contains a fit.
 bool holds_fits(const std::filesystem::path& folder) {
   std::error_code failure;
   const std::filesystem::directory_iterator entries(folder, failure);
@@ -47,8 +47,8 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
       continue;
     AnyFit fit = load_any_fit(entry.path());
     if (entry.path().stem() != fit_id(fit))
-      throw input_error(entry.path().string() + ": holds the fit " + fit_id(fit) +
-                        " (rename the file after it)");
+      throw input_error(entry.path().string() + ": contains the fit " + fit_id(fit) +
+                        " (rename the file to " + fit_id(fit) + ".json)");
     loaded.add(std::move(fit));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };

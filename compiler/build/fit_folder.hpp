@@ -13,7 +13,7 @@ struct FitFolder {
   std::vector<Fit> fits;  // converters of width and specular
   std::vector<WorkflowFit> workflows;
   std::vector<WarpMapFit> warps;
-  ReachRecords reach;  // records of fits that have not changed since
+  ReachRecords reach;  // holds only fits that are unchanged since they were measured
 
   void add(AnyFit fit);
 };
@@ -22,8 +22,9 @@ struct FitFolder {
 // installed folder. If neither exists, it returns `fits`.
 std::filesystem::path default_fit_folder();
 
-// Loads every `*.json` of `folder` except its manifest and what is beside tables. Throws kInput for a folder
-// that cannot be read, a file without a fit, and a file whose name is not the id of its fit.
+// Loads every `*.json` directly in `folder` except its manifest and the records of tables (`*.csv.json`).
+// Throws kInput for a folder that cannot be read, a file without a fit, and a file whose name is not the id
+// of its fit.
 FitFolder load_fit_folder(const std::filesystem::path& folder);
 
 // Loads the converters of width and specular only.

@@ -150,7 +150,8 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& c
   for (const ManifestItem& item : items) ids.push_back(item.id);
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) throw input_error(context + ": " + *twice + " is defined twice");
+  if (twice != ids.end())
+    throw input_error(context + ": " + *twice + " is defined twice (remove one definition)");
   for (const std::string& id : ids)
     if (!is_valid_id(id))
       throw input_error(context + ": id \"" + id + "\" is not valid (use " + kIdRule + ")");
@@ -170,7 +171,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& context) {
     root[key].list(0, [&](const Field& entry) {
       read(entry);
       if (items.size() > kMostItems)
-        root.fail("has more than " + std::to_string(kMostItems) + " items, the most that are read");
+        root.fail("has more than " + std::to_string(kMostItems) + " items, which is the limit");
       return 0;
     });
   };

@@ -48,7 +48,7 @@ struct NetworkItem {
   WorkflowFit fit;                      // the fit without its trained part
   std::string metallic, specular;       // the sampled model and the matched model
   std::map<std::string, double> fixed;  // parameters of the metallic model, by name
-  std::vector<std::string> varied;      // its parameters without a role that vary
+  std::vector<std::string> varied;      // further parameters of the metallic model, without a role, that vary
   std::size_t count = 20000;
   int resolution = 32;
   std::vector<std::size_t> hidden;  // units in each hidden layer
@@ -60,8 +60,9 @@ struct ManifestItem {
   std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // seed of its fit and of random materials
-  // Is true if its light is accepted unchanged (table/light.hpp). The list `accepted_light` of the manifest
-  // names it, with a reason. It is not part of the recipe, because it does not change the content of a table.
+  // This is true if a difference between the models' light is accepted (table/light.hpp). The list
+  // `accepted_light` of the manifest has such items, each with a reason. The field is not part of the recipe,
+  // because it does not change the table.
   bool accept_light = false;
 };
 

@@ -19,9 +19,10 @@ struct ReachRecord {
 };
 using ReachRecords = std::map<std::string, ReachRecord>;  // keyed by id
 
-// Reads the records in `folder`; there are none without a file. Throws kInput for a file of another form.
+// Reads the records in `folder`, or none if their file does not exist. Throws kInput if the file has another
+// form.
 ReachRecords read_reach(const std::filesystem::path& folder);
-// Returns the records of fits that have not changed since.
+// Returns the records of fits that are unchanged since they were measured.
 ReachRecords current_reach(const std::filesystem::path& folder);
 void write_reach(const std::filesystem::path& folder, const ReachRecords& records);
 

@@ -50,7 +50,7 @@ std::string link(const std::string& text, const std::string& id) { return "[" + 
 
 // A ModelPair holds the compared converters between two models, both ways.
 struct ModelPair {
-  std::string first, second;  // by name
+  std::string first, second;  // names of the models, in alphabetical order
   std::vector<const Fit*> there, back;
 };
 

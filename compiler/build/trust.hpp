@@ -22,7 +22,7 @@ double image_error(const Fit& fit);
 // compared`. Returns an empty text if there is no reason. The report marks such converters.
 std::string trust_warning(const Fit& fit);
 
-// Returns the fits by rising image error, and equal ones by id.
+// Returns the fits sorted by image error, smallest first. Fits with equal errors are sorted by id.
 std::vector<const Fit*> by_trust(const std::vector<Fit>& fits);
 
 }  // namespace remap

@@ -36,7 +36,8 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
 
 std::string seconds_text(double seconds) { return number_text(rounded_up(seconds, 2)) + " s"; }
 
-// Returns where the time of an item went, or nothing: ` (sweep 12 s, of it 9 s for 1409 pictures; fit 4 s)`.
+// Returns the stages that took the time of an item: ` (sweep 12 s, of it 9 s for 1409 pictures; fit 4 s)`.
+// Returns an empty text if the item was up to date.
 std::string stages_text(const BuiltItem& item) {
   std::string text;
   const auto add = [&](const char* stage, double seconds) {

@@ -20,7 +20,7 @@ namespace {
 
 struct ChainCommand {
   std::vector<std::string> steps;  // for chain: files or ids
-  std::string fit;                 // for invert
+  std::string fit;                 // for invert: the fit to invert
   std::string id;
   std::filesystem::path fit_folder, output = "fits";
   bool force = false, json = false;

@@ -50,7 +50,8 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
     const Fit fit = find_fit(name, options.fit_folder);
     if (!converts(fit, table))
       throw input_error(name + ": converts " + fit.source.model + " to " + fit.target.model +
-                        ", but the table is for " + table.source.model + " to " + table.target.model);
+                        ", but the table is for " + table.source.model + " to " + table.target.model +
+                        " (give the table of this fit)");
     fits.push_back({fit, std::filesystem::is_regular_file(name) ? name : file_of(name)});
   }
   if (options.fits.empty() && std::filesystem::is_directory(options.fit_folder))
@@ -128,7 +129,8 @@ void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> rows = answer_rows(table);
-  if (rows.empty()) throw input_error(table.name + ": no usable rows");
+  if (rows.empty())
+    throw input_error(table.name + ": no usable rows (its column status shows no successful match)");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);
   const std::string digest = sha256(bytes);

@@ -23,7 +23,7 @@ struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
   std::filesystem::path fit_folder;
   std::filesystem::path output = "generated";
-  std::optional<Language> language;  // instead of C++
+  std::optional<Language> language;  // language of the output; if missing, C++
   bool all = false, check = false, force = false;
 };
 
@@ -101,8 +101,9 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
 
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
-    throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
-                                               : "no fits given (give fits, or use --all)");
+    throw Error(ErrorKind::kUsage, options.all
+                                       ? "--all: cannot be used together with fits (remove --all or the fits)"
+                                       : "no fits given (give fits, or use --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");

@@ -90,7 +90,8 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
 
 void run(const EvalOptions& options) {
   if (options.table.path.empty() == (options.grid == 0))
-    throw usage_error("eval: a table is required (give its file, or use --grid)");
+    throw usage_error(options.grid == 0 ? "eval: a table is required (give its file, or use --grid)"
+                                        : "--grid cannot be used with a table (remove one of the two)");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output can only be used with --grid");
   require_new(options.output, options.force);

@@ -31,7 +31,7 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// These are the kinds of fits, after the choice by pictures.
+// `auto`, which lets pictures choose, comes before the names of the kinds.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
@@ -96,9 +96,9 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
 // Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
-    throw usage_error(
-        command.table.path +
-        ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
+    throw usage_error(command.table.path +
+                      ": converting metallic to specular needs no fit, because a formula is exact (use "
+                      "--swap to fit the inverse)");
   if (const std::string model(command.options.kind); !model.empty() && model != "mlp")
     throw usage_error("--model " + model + ": not available for a table of materials (use mlp)");
   if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");

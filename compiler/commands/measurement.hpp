@@ -19,7 +19,7 @@
 namespace remap {
 
 struct MeasurementOptions {
-  PairOptions pair;  // the objective is missing; the next fields choose it
+  PairOptions pair;  // set when the command runs; its objective follows from the next fields
   std::string objective = "natural";
   std::optional<std::vector<double>> lights;  // angles; if missing, the objective sets both
   std::optional<Weighting> weighting;

@@ -31,7 +31,7 @@ struct PreviewCommand {
   std::filesystem::path fit_folder, output;
   std::vector<std::string> lights;  // if empty, default_light()
   double distance = 3.0, exposure = 1.0;
-  PreviewOptions options;  // its lights are still missing
+  PreviewOptions options;  // its lights are set when the command runs
   bool bare = false, force = false, json = false;
   RendererOptions renderers;
 };

@@ -28,7 +28,7 @@ Material material_of(const ModelDescription& model,
     const bool has_standard =
         parameter.role == ParameterRole::kDiffuse || parameter.role == ParameterRole::kOther;
     if (!has_standard)
-      throw usage_error(model.name + ": parameter " + parameter.name + " is required (--set " +
+      throw usage_error(model.name + ": parameter " + parameter.name + " is required (add --set " +
                         parameter.name + "=VALUE)");
     material.parameters[parameter.name] = {parameter.standard};
   }

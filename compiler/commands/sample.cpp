@@ -8,7 +8,7 @@ namespace remap {
 namespace {
 
 struct SampleCommand : MeasurementOptions {
-  MaterialSampleOptions sample;  // its pair is still missing
+  MaterialSampleOptions sample;  // its pair is set when the command runs
 };
 
 Range range_of(const ParameterSetting& setting) {

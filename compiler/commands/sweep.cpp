@@ -15,11 +15,11 @@ namespace remap {
 namespace {
 
 struct SweepCommand : MeasurementOptions {
-  SweepOptions sweep;  // its pair and samples are still missing
+  SweepOptions sweep;  // its pair and samples are set when the command runs
   std::size_t roughness_samples = 30, specular_samples = 30;
   Range roughness_range{0.01, 1.0};
   std::optional<Range> specular_range;  // if missing, the model's range
-  TableInput samples_of;                // a grid if it has no path
+  TableInput samples_of;                // the table whose samples are used; without a path, a grid
 };
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {

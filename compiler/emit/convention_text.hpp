@@ -6,8 +6,8 @@
 namespace remap {
 
 struct ConventionText {
-  const char* meaning;  // for a comment
-  const char* formula;  // formula of alpha for people; empty if the parameter is alpha
+  const char* meaning;  // words for a comment in the header
+  const char* formula;  // a formula of alpha for people; empty if the parameter is alpha itself
 };
 
 inline ConventionText convention_text(RoughnessEncoding convention) {

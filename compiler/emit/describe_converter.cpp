@@ -18,7 +18,8 @@ std::string range_text(const std::string& name, const Range& range) {
   return name + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
-// Returns how much pictures differ, and where the numbers come from, in words for everybody.
+// Returns how much pictures differ, and where the numbers come from, in words that need no knowledge of
+// remap.
 std::string provenance(const Fit& fit) {
   const auto comment = [&](const std::string& key) {
     const auto found = fit.table.comments.find(key);

@@ -79,8 +79,8 @@ WarpTexel candidate(std::size_t number) {
   return texel;
 }
 
-// Returns the distance of a texel, in nodes, from the place where the closest node changes. Blended tables
-// have no such places, so the distance is 1.
+// Returns the distance of a texel, in nodes, from the place where another node becomes the closest. Blended
+// tables have no such places, so the distance is 1.
 double distance_to_tie(const CompiledWarp& warp, const WarpTexel& texel) {
   double distance = 1.0;
   if (!std::holds_alternative<CopiedNodes>(warp.table.entries)) return distance;

@@ -16,7 +16,7 @@ namespace remap {
 std::string emit_header(const Fit& fit);
 
 // Return the generated headers of converters of whole materials. A warp has the specular workflow on both
-// sides. Throw kInput if require_valid() does.
+// sides. Both functions throw kInput if require_valid() does.
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 

@@ -22,7 +22,8 @@ struct WarpHeader {
 struct HeaderEnd {
   std::string model;  // such as `mitsuba/ggx`
   std::string width;  // the name of its convention
-  // These are the members of the header's Input or Output. `width` is first of two, and last for materials.
+  // These are the members of the header's Input or Output. `width` comes first if there are two, and last for
+  // materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // for whole materials: `specular`, `plain`
 };
@@ -44,7 +45,7 @@ struct HeaderData {
 
 // Describes a fit. Throws kNumeric for a fit without a converter.
 HeaderData describe(const Fit& fit);
-// Describe other fits. Throw kInput if require_valid() does.
+// Describe fits of whole materials. Both functions throw kInput if require_valid() does.
 HeaderData describe(const WorkflowFit& fit);
 HeaderData describe(const WarpMapFit& fit);
 
@@ -56,8 +57,8 @@ const ConverterData& require_converter(const Fit& fit);
 
 // The following are parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-// Returns the network with its scalings in the weights. The first layer reads raw inputs, after the poles of
-// their scalings, and the last gives raw outputs.
+// Returns the network with its scalings folded into the weights. The first layer reads raw inputs (after the
+// poles of their scalings), and the last layer gives raw outputs.
 Network folded(const Network& network);
 
 }  // namespace remap

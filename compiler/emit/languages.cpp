@@ -47,7 +47,8 @@ Parts parts_of(const Fit& fit) {
   return parts;
 }
 
-// A line for each statement: `start`, name and value. An output begins with `last` instead.
+// Returns a line for each statement: `start`, its name and its value. The line of an output begins with
+// `last` instead.
 std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
                      const std::string& start, const std::string& last, const std::string& end) {
   const std::vector<std::string> colors =

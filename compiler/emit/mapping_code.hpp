@@ -14,8 +14,8 @@ std::string form_code(const ConverterData& converter);
 
 struct MaterialCode {
   std::string formula;
-  std::string constants;  // definitions beside the ones of the ends
-  std::string functions;  // for namespace detail
+  std::string constants;  // definitions besides those of source and target
+  std::string functions;  // functions of namespace detail
   std::string block;      // the number of texels that are converted together
   std::string call;       // converts a block: rows `from` to rows `to`
   std::string within;     // tolerance for golden values, a float literal
@@ -24,9 +24,10 @@ struct MaterialCode {
 MaterialCode material_code(const WorkflowConversion& conversion);
 MaterialCode material_code(const WarpHeader& header);
 
-// Returns `void NAME(std::size_t count, const float* const* in, float* const* out)`, count up to kBlock. It
-// turns rows of the inputs of a network that is folded() into rows of its outputs. `network_helpers` come
-// once before the functions of one activation. Both use `kBlock`, `bits` and `float_from_bits` of the header.
+// network_function() returns `void NAME(std::size_t count, const float* const* in, float* const* out)`, for
+// counts up to kBlock. The function turns rows of a network's inputs into rows of its outputs. The network
+// must be folded(). network_helpers() returns what all functions of one activation need before them. Both use
+// `kBlock`, `bits` and `float_from_bits` of the header.
 std::string network_helpers(Activation activation);
 std::string network_function(const std::string& name, const Network& network);
 // Returns kBlock: the largest block, up to 128, whose rows of all layers fit into the first-level cache.

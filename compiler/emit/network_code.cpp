@@ -5,8 +5,8 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kCacheFloats = 6144;  // for rows: three quarters of a first-level cache of 32 KB
-constexpr std::size_t kUnitsAtOnce = 4;     // hidden units between two layers, `two_layers` in layers.in
+constexpr std::size_t kCacheFloats = 6144;  // bytes of rows: three quarters of a first-level cache of 32 KB
+constexpr std::size_t kUnitsAtOnce = 4;     // hidden units that `two_layers` (layers.in) computes together
 
 std::string layer_table(const std::string& name, const Layer& layer) {
   std::vector<std::string> numbers;

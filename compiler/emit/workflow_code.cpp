@@ -10,7 +10,8 @@ namespace {
 // A CodeOf returns the code of each formula.
 struct CodeOf {
   MaterialCode operator()(const Equation2&) const {
-    // Compilers may fuse products, so results may differ slightly. Towards metallic the difference grows.
+    // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions
+    // to the metallic workflow.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
   MaterialCode operator()(const Projection& projection) const {

@@ -13,7 +13,8 @@ namespace remap {
 struct Baseline {
   std::string name;
   std::string formula;  // shown to users
-  // Maps in canonical coordinates, like evaluate_mapping(). It is empty if the formula does not apply.
+  // Converts canonical coordinates, like evaluate_mapping(). The function is empty if the formula does not
+  // apply.
   std::function<MappedTexel(double alpha, double specular)> map;
   std::string why_not;  // why the formula does not apply
 };

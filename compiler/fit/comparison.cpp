@@ -16,16 +16,16 @@ constexpr int kIterations = 12;
 // This limits the terms of a fitted factor. More would overfit the lights that choose the form.
 constexpr std::size_t kMostTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
-constexpr double kNear = 1.01;         // factor to the best
-constexpr double kNearRmse = 0.05;     // percent of the display's range
-constexpr double kNearRow = 0.01;      // relative error
-// This is relative, for copied numbers: the least visible difference (Weber's fraction).
+constexpr double kNear = 1.01;         // largest ratio to the best error
+constexpr double kNearRmse = 0.05;     // difference in percent of the display's range
+constexpr double kNearRow = 0.01;      // difference of relative errors
+// Copied numbers are judged by this relative difference, the least that people see (Weber's fraction).
 constexpr double kNearCopy = 0.02;
-// Rows take part in the refinement with these weights of squared relative errors. The weight is low where
-// pictures show the difference, to stop drifting. It is high where highlights are narrower than a pixel.
+// These weigh the squared relative errors of rows in the refinement. Where pictures show a difference, rows
+// only have to stop a drift, so their weight is low. Highlights narrower than a pixel need a high weight.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
-constexpr std::size_t kMostRows = 60;  // limit for either kind
+constexpr std::size_t kMostRows = 60;  // largest number of narrow rows, and of other rows
 
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;
@@ -46,7 +46,7 @@ struct WeightedSample {
   double weight = 0.0;
 };
 
-// Returns some of the rows below the limits. `pictures` is the number of pictures, on which weights depend.
+// Returns some of the rows below the limits. Weights are proportional to `pictures`, the number of pictures.
 std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
   std::vector<WeightedSample> all;
   for (const bool is_narrow : {true, false}) {
@@ -63,7 +63,8 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
   return all;
 }
 
-// Returns the best of the `starts`, refined by pictures and rows. `unit` holds both errors of rows.
+// Refines each of the `starts` by pictures and rows, and returns the best result. `unit` holds both errors of
+// rows.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {
@@ -235,7 +236,7 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
     enter(shape_name(shape), [&] {
       CompactForm form = fit_form(samples, base.limits, base.domain, shape, sound);
       if (!is_sound(form, base.domain))
-        throw numeric_error("not positive, or it falls where the source rises");
+        throw numeric_error("is not positive, or falls while the source rises");
       sound.push_back(form);
       if (pictures != nullptr) {
         std::vector<CompactForm> starts = {form};

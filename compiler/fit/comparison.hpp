@@ -11,7 +11,7 @@ namespace remap {
 
 struct Candidate {
   CandidateRecord record;  // the verdict is empty while it may be chosen
-  Fit fit;                 // with errors on the held-out rows; undefined if it failed
+  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
 };
 
 struct Comparison {
@@ -21,7 +21,7 @@ struct Comparison {
 
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
 // without its mapping. If `pictures` is not null and knows the pair, pictures then refine the forms.
-// Otherwise only rows count.
+// Otherwise only rows are used.
 //
 // Of the sound candidates, it chooses the one with the fewest numbers whose judged errors are close to the
 // best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit

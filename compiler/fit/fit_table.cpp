@@ -21,7 +21,7 @@ namespace {
 void require_models(const Table& table) {
   if (table.source.model.empty() || table.target.model.empty())
     throw input_error(table.name +
-                      ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
+                      ": does not state its models (add `# source: ...` and `# target: ...` lines, or use "
                       "--source and --target)");
   for (const ModelSide& side : {table.source, table.target}) {
     if (!is_valid_model(side.model))
@@ -33,7 +33,8 @@ void require_models(const Table& table) {
   }
 }
 
-// Below this fraction of the largest specular, which is invisible, learned fits continue in proportion.
+// Below this fraction of the largest specular, which nobody sees, learned fits make the output proportional
+// to the input.
 constexpr double kLeastShare = 0.02;
 
 // Parses the pairs of numbers of kSpheresComment and skips invalid ones.
@@ -87,7 +88,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   fit.limits = table.limits;
-  // An inverse must lead back to the source, so similar pictures do not matter.
+  // Similar pictures are not enough for an inverse: it must return the source's parameters.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr

@@ -15,11 +15,11 @@ struct RegressionOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
   std::string form;   // form of the parametric kind; if empty, the paper's
-  MlpOptions mlp;     // the seed and jobs above replace its own
+  MlpOptions mlp;     // its seed and jobs are replaced by those above
 };
 
-// A FitKind is a regression that a user can name, for the rows below the limits of the target. Without a name
-// forms are compared (comparison.hpp).
+// A FitKind is a regression that a user can name. It fits the rows below the limits of the target. If the
+// user names no kind, forms are compared (comparison.hpp).
 struct FitKind {
   std::string_view name;
   // Fits the rows. Curves must be sound in `domain`. Throws the errors of the regression.

@@ -1,5 +1,5 @@
-// Formulas as statements that every language can write: of converters (emit/converter_formula.hpp), and of
-// whole materials (materials/description.hpp).
+// This file holds formulas as statements that can be written in every language. Formulas of converters come
+// from emit/converter_formula.hpp, those of whole materials from materials/description.hpp.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ namespace remap {
 
 enum class Op { kNumber, kName, kAdd, kSubtract, kMultiply, kDivide, kCall };
 
-// A number, a name, an operation on two terms, or a call of the function `name`. Functions of formulas: min
-// and max of two terms, sqrt, and largest (the largest channel of a color).
+// An Expression is a number, a name, an operation on two terms, or a call of the function `name`. Converters
+// call min and max of two terms, sqrt, and largest (the largest channel of a color).
 struct Expression {
   Op op = Op::kNumber;
   float number = 0.0f;
@@ -26,14 +26,14 @@ Expression call(const std::string& function, std::vector<Expression> terms);
 
 enum class ValueType { kNumber, kColor, kInteger, kBoolean };
 
-// A value with a name. Of colors each channel by itself.
+// A Statement gives a value a name. If the value is a color, each channel is computed separately.
 struct Statement {
   std::string name;
   ValueType type = ValueType::kNumber;
   Expression value;
 };
 
-// A function of several formulas: an expression of its parameters.
+// A FormulaFunction is an expression of its parameters that several formulas can call.
 struct FormulaFunction {
   std::string name;
   std::vector<std::string> parameters;
@@ -41,19 +41,19 @@ struct FormulaFunction {
   std::string comment;
 };
 
-// How a language writes an expression.
+// A Notation decides how a language writes an expression.
 struct Notation {
   std::string (*number)(float) = nullptr;
-  // A call from the texts of its terms.
+  // Returns the text of a call from the texts of its terms.
   std::function<std::string(const std::string& function, const std::vector<std::string>& terms)> call;
-  std::string channel = {};  // behind the names of colors
+  std::string channel = {};  // follows the names of colors; for example `[c]`
 };
-// Writes calls by patterns: `$1` is the first term. A function without a pattern, or whose pattern has no
-// term, is written as `name(terms)`.
+// Returns a Notation::call that fills patterns: `$1` is the first term. If a function has no pattern, or its
+// pattern has no `$`, the call is written as `name(terms)`.
 std::function<std::string(const std::string&, const std::vector<std::string>&)> calls_by(
     std::vector<std::pair<std::string, std::string>> patterns);
 
-// `colors`: the names that are colors.
+// Returns the text of an expression. `colors` lists the names whose values are colors.
 std::string text_of(const Expression& expression, const Notation& notation,
                     const std::vector<std::string>& colors = {});
 

@@ -24,7 +24,7 @@ void GraphWriter::write(const Statement& statement) {
   const bool is_output = statement.name.ends_with("_out");
   const std::string name =
       is_output ? statement.name.substr(0, statement.name.size() - 4) + "_value" : statement.name;
-  // MaterialX converts no number to an integer, but chooses between integers.
+  // MaterialX cannot convert a number to an integer, but it can choose between two integers.
   const bool is_choice = statement.value.op == Op::kCall && statement.value.name.starts_with("if_");
   Term term = is_choice && statement.type == ValueType::kInteger
                   ? choice_of(statement.value, statement.type, name)
@@ -33,7 +33,7 @@ void GraphWriter::write(const Statement& statement) {
     locals_[statement.name] = std::move(term);
     return;
   }
-  // An output of a graph names a node.
+  // An output of a graph must refer to a node, so a bare value or input gets one.
   if (!term.attribute.starts_with("nodename")) {
     const bool is_value = term.attribute.starts_with("value");
     term = node(is_value ? "constant" : "dot", term.type, {{is_value ? "value" : "in", term}}, name);
@@ -48,7 +48,8 @@ GraphWriter::Term GraphWriter::term_of(const Expression& expression, const std::
       return {ValueType::kNumber, "value=\"" + number_text(decimal_value(expression.number)) + "\""};
     case Op::kName:
       if (const auto input = inputs_.find(expression.name); input != inputs_.end()) {
-        const std::string plain = expression.name.substr(expression.name.rfind('.') + 1);  // of source.NAME
+        // Only NAME of `source.NAME` is the name in the graph.
+        const std::string plain = expression.name.substr(expression.name.rfind('.') + 1);
         return {input->second, "interfacename=\"" + plain + "\""};
       }
       return locals_.at(expression.name);

@@ -1,4 +1,4 @@
-// Statements as a node graph of MaterialX.
+// This file writes statements as a node graph of MaterialX.
 #pragma once
 
 #include <map>
@@ -10,21 +10,22 @@
 
 namespace remap {
 
-// `color3`, ...
+// Returns the name of the type in MaterialX, such as `color3`.
 std::string material_x_type(ValueType type);
 
-// A function as a node definition with its graph, for terms of certain types.
+// A GraphFunction is a function as a node definition with its graph, for terms of certain types.
 struct GraphFunction {
   ValueType type = ValueType::kNumber;
   std::string text;
 };
 
-// Writes each operation once: equal operations on equal terms are one node. A statement whose name ends in
-// `_out` becomes an output of the graph. The nodes exist in MaterialX 1.38 and later.
+// A GraphWriter writes each operation once: equal operations on equal terms share a node. A statement whose
+// name ends in `_out` becomes an output of the graph. The nodes exist in MaterialX 1.38 and later.
 class GraphWriter {
  public:
-  // `inputs`: names and types of the inputs of the graph. A call of one of `functions` becomes a node of the
-  // category `remap_NAME_TYPES`, whose definition is added to `definitions` by that name.
+  // `inputs` holds the names and types of the graph's inputs. A call of one of `functions` becomes a node of
+  // the category `remap_NAME_TYPES`. The definition of this node is added to `definitions` under the same
+  // name.
   explicit GraphWriter(std::map<std::string, ValueType> inputs,
                        const std::vector<FormulaFunction>& functions = {},
                        std::map<std::string, GraphFunction>* definitions = nullptr)
@@ -32,13 +33,13 @@ class GraphWriter {
 
   void write(const Statement& statement);
 
-  // Elements of the graph, indented by four blanks.
+  // Return the elements of the graph, indented by four spaces.
   const std::string& nodes() const { return nodes_; }
   const std::string& outputs() const { return outputs_; }
   std::size_t count() const { return made_.size(); }
 
  private:
-  // A Term holds where the value of an input comes from: `nodename="..."`.
+  // A Term is an attribute that connects an input to its value: `nodename="..."`.
   struct Term {
     ValueType type;
     std::string attribute;
@@ -57,7 +58,7 @@ class GraphWriter {
   std::vector<FormulaFunction> functions_;
   std::map<std::string, GraphFunction>* definitions_;
   std::map<std::string, Term> locals_;
-  std::map<std::string, Term> made_;  // by the text of the node without its name
+  std::map<std::string, Term> made_;  // keyed by the text of the node without its name
   std::string nodes_, outputs_;
   int numbered_ = 0;
 };

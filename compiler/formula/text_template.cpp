@@ -11,8 +11,8 @@ namespace remap {
 namespace {
 
 constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
-// This comes before a loop whose output rows are its input rows, or overlap no other row. Compilers then omit
-// the check for overlap.
+// This comes before a loop whose output rows are also its input rows, or do not overlap any other row.
+// Compilers then omit the check for overlap.
 constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #elif defined(__GNUC__)
@@ -31,7 +31,7 @@ std::string indented(std::string_view text, const std::string& indentation) {
   return result;
 }
 
-// Fills the holes of one line; values of several lines continue at the indentation of the line.
+// Fills the holes of one line. If a value has several lines, all get the indentation of this line.
 std::string fill_line(std::string_view line, const std::map<std::string, std::string>& values,
                       std::set<std::string>* used) {
   const std::string indentation(line.substr(0, line.find_first_not_of(' ')));
@@ -52,7 +52,7 @@ std::string fill_line(std::string_view line, const std::map<std::string, std::st
     const bool alone = filled == indentation && end + 1 == line.size();
     vanishes = alone && value->second.empty();
     std::string_view text = value->second;
-    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the line adds its own end
+    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the caller adds the newline
     filled += indented(text, indentation);
     line.remove_prefix(end + 1);
   }

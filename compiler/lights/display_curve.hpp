@@ -16,7 +16,7 @@ class DisplayCurve {
     for (std::size_t i = 0; i <= kCells; ++i)
       values_[i] = display_value(static_cast<double>(i) / static_cast<double>(kCells));
   }
-  // Returns value and slope.
+  // Returns the display value and the slope of the curve.
   std::pair<float, float> operator()(float linear) const {
     if (linear <= 0.0f) return {0.0f, 0.0f};
     if (linear >= 1.0f) return {1.0f, 0.0f};

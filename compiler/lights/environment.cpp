@@ -22,7 +22,8 @@ double angle_between(const Direction& a, const Direction& b) {
   return std::acos(std::clamp(product(a, b), -1.0, 1.0));
 }
 
-// Returns a direction. `elevation` is above the horizon, and `azimuth` from -z towards +x, both in degrees.
+// Returns the direction at `elevation` above the horizon and at `azimuth`, which turns from -z towards +x,
+// both in degrees.
 Direction direction_at(double elevation, double azimuth) {
   return map_direction({0.5 + azimuth / 360.0, 0.5 - elevation / 180.0});
 }

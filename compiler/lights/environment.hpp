@@ -21,17 +21,17 @@ struct Environment {
   Image map;
 };
 
-// A MapPosition is the position of a direction in a map, 0 to 1 in width and height from the top left corner.
-// The functions convert between both.
+// A MapPosition is the place of a direction in a map, 0 to 1 in width and height from the top left corner.
+// Two functions convert between directions and places.
 struct MapPosition {
   double u = 0.0, v = 0.0;
 };
 MapPosition map_position(const Direction& direction);
 Direction map_direction(const MapPosition& position);
 
-// Reads an HDR or EXR file; the environment has the name of the file. A single channel is grey; values below
-// 0 become 0. Throws kInput for a file that cannot be read or is not twice as wide as high. Also throws it
-// for a black file and for values that are not finite.
+// Reads an HDR or EXR file. The environment gets the name of the file. A single channel is grey, and values
+// below 0 become 0. Throws kInput for a file that cannot be read or is not twice as wide as high. Also throws
+// it for a black file and for values that are not finite.
 Environment load_environment(const std::filesystem::path& path);
 
 // Computes three environments with `height` rows. `sky` is a clear sky with sun, `overcast` an overcast sky,

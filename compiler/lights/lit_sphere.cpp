@@ -61,9 +61,9 @@ constexpr std::size_t kHalves = 2;
 
 // A Mixture is the distribution from which directions are drawn at every pixel.
 struct Mixture {
-  std::array<double, 2> alphas{};                       // of the GGX lobes
-  std::array<std::uint32_t, kTechniqueCount> counts{};  // samples of each technique in a half
-  double half_count = 0.0;                              // their sum
+  std::array<double, 2> alphas{};                       // alphas of the GGX lobes
+  std::array<std::uint32_t, kTechniqueCount> counts{};  // number of samples of each technique in one half
+  double half_count = 0.0;                              // sum of `counts`
 
   // Returns the expected density of samples of one half at a direction, per steradian.
   double density(const LocalGeometry& g) const {

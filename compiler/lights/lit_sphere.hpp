@@ -29,8 +29,8 @@ struct SphereSampling {
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
   const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
-  // With this set, all pixels share their directions, so that a few directions give a smooth picture. Its
-  // error is then smooth, too; otherwise the error differs from pixel to pixel.
+  // With this set, all pixels use the same directions, so a few directions give a smooth picture with a
+  // smooth error. Without it, the error differs from pixel to pixel.
   bool shares_directions = false;
 };
 
@@ -92,7 +92,7 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
 // Converts linear values to display values (renderer/image_similarity.hpp).
 std::vector<float> display_values(std::span<const float> radiance);
 
-// A DisplayedSphere is a picture in display values. The shape may be another than the sphere.
+// A DisplayedSphere is a picture in display values. It may show another shape.
 struct DisplayedSphere {
   std::vector<float> colors;  // RGB of the pixels that show the sphere
   std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
@@ -102,7 +102,7 @@ struct DisplayedSphere {
 DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
                                  int resolution);
 
-// Adds luma to `colors`, which are display values already.
+// Like displayed_sphere(), for `colors` that are display values already.
 DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
                                  int resolution);
 

@@ -19,11 +19,11 @@ constexpr std::size_t kWidthCount = 40;
 constexpr Range kWidths{0.01, 1.0};
 constexpr double kLeastWidth = 0.05;  // narrower highlights are smaller than a pixel
 constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpeculars = {0.1, 0.3, 0.5, 0.9};
-// This is the weight of a per cent of the error under point lights, while a per cent under environments
-// counts 1. With it forms are at least as good as regressions of the rows in both, by the lights that choose
+// This is the weight of one per cent of error under point lights. One per cent under environments has the
+// weight 1. With 0.5, forms are at least as good as regressions of the rows under both kinds of lights
 // (docs/decisions/079-one-form.md).
 constexpr double kPointWeight = 0.5;
-constexpr double kWidthStep = 0.04;  // relative step of differences
+constexpr double kWidthStep = 0.04;  // relative step of difference quotients
 
 // Turns an environment about the vertical axis by a fraction of a circle.
 Environment turned(const Environment& environment, double share) {
@@ -93,7 +93,7 @@ using Picture = std::vector<float>;
 struct MaterialPictures {
   MappedTexel source;
   std::vector<Picture> pictures;
-  std::vector<double> power;  // sums of squares of the linear ones
+  std::vector<double> power;  // sums of squares of the linear values
 };
 
 class Judge {
@@ -144,7 +144,8 @@ class Judge {
       both += a * s;
       specular_2 += s * s;
     }
-    // The error is the root of a mean of squares. Its slope is the slope of the squares over twice the error.
+    // The error is the square root of a mean of squares. Its derivative is the derivative of the mean over
+    // twice the error.
     const double count =
         is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
     const double error = std::sqrt(square / count);
@@ -174,7 +175,7 @@ class Judge {
   std::vector<MaterialPictures> shown_;
 };
 
-// Each half takes every other width, and its own speculars.
+// Makes the materials of one half. They have every other width, with the speculars of this half.
 template <typename Speculars>
 std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
                                    const Speculars& speculars) {

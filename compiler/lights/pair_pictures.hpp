@@ -17,15 +17,15 @@ using TexelMap = std::function<MappedTexel(double alpha, double specular)>;
 class PairPictures {
  public:
   virtual ~PairPictures() = default;
-  // Returns the materials whose pictures choose.
+  // Returns the materials whose pictures choose the numbers of a converter.
   virtual const std::vector<MappedTexel>& sources() const = 0;
-  // Returns the errors of target texels' pictures. These are the RMSE of display values under environments
-  // and the error relative to the source under point lights. Each is divided by `unit`, so that a per cent of
-  // one counts as much as a per cent of the other.
+  // Returns the errors of target texels' pictures: the RMSE of display values under environments, and the
+  // error relative to the source under point lights. Each error is divided by its value in `unit`, so that
+  // one per cent has the same weight in both.
   virtual TexelErrors choosing_errors(const PictureErrors& unit) const = 0;
-  // Returns means over the lights and materials that choose.
+  // Returns mean errors over the lights and materials that choose.
   virtual PictureErrors chosen(const TexelMap& map) const = 0;
-  // Returns means over the other materials and lights.
+  // Returns mean errors over the lights and materials that judge.
   virtual PictureErrors judged(const TexelMap& map) const = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kCoarsestHeight = 4;  // in rows
+constexpr int kCoarsestHeight = 4;  // number of rows
 
 // A Share is the weight of an input row or column in an output row or column. The weights sum to 1.
 struct Share {
@@ -67,7 +67,7 @@ std::vector<float> resampled(const float* from, std::size_t width, std::size_t c
   return texels;
 }
 
-constexpr double kLampThreshold = 4.0;  // relative to the mean luminance
+constexpr double kLampThreshold = 4.0;  // as a multiple of the mean luminance
 constexpr std::size_t kMostLamps = 128;
 constexpr int kLampTexels = 2;  // width and height of a spot
 
@@ -177,8 +177,9 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
   // This is the size of a texel at the horizon of the finest level. Each level has four times the solid angle
-  // of the previous one. Krivanek and Colbert add a level of overlap for few samples. This is not done here,
-  // because the maps vary little without lamps, and blur makes pictures too similar.
+  // of the previous level. Krivanek and Colbert choose a coarser level to get smooth pictures from few
+  // samples. This is not needed here, because maps without lamps vary little. It would blur pictures and make
+  // them too similar.
   const double texel = pi / levels_.front().height;
   const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));

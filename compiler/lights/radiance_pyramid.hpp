@@ -21,7 +21,7 @@ struct Lamp {
 // adjacent, because every sample reads all of them.
 class RadiancePyramid {
  public:
-  // Resamples maps of any size to `height` rows and twice as many columns; each texel is the mean over its
+  // Resamples maps of any size to `height` rows and twice as many columns. Each texel is the mean over its
   // directions. `height` is a power of two, at least 8.
   explicit RadiancePyramid(std::span<const Environment> environments, int height = 256);
 

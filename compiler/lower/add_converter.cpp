@@ -45,7 +45,8 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
     const double in = static_cast<double>(s);
     double out = 0.0;
     const double width = evaluate_texel(fit, static_cast<double>(r), {&in, 1}, {&out, 1});
-    const double scale = std::max(1.0, in / specular.max);  // factors beyond the edge are the edge's
+    // beyond the edge, the factors at the edge are used
+    const double scale = std::max(1.0, in / specular.max);
     texels.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
                       bound(own_error(fit.target.roughness, width, alpha_error)),
                       bound(scale * specular_error + rounding_of(out))});

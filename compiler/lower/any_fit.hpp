@@ -1,4 +1,4 @@
-// This file lists the fits that a fit file can hold.
+// This file lists all types of fits that a fit file can contain.
 #pragma once
 
 #include <string>

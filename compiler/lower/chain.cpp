@@ -16,8 +16,8 @@ namespace remap {
 namespace {
 
 constexpr int kAlphas = 401, kSpeculars = 64;  // sizes of the grid on which the domain is found
-constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
-constexpr double kSameEdge = 1e-9;             // relative tolerance for the edge of a domain
+constexpr int kCoarse = 25;         // numbers of alphas and speculars at which errors are propagated
+constexpr double kSameEdge = 1e-9;  // relative tolerance for the edge of a domain
 // A form is close enough to its steps within these distances, which pictures do not show.
 constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 
@@ -38,9 +38,10 @@ void require_links(const std::vector<Fit>& steps) {
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)
-      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " +
-                                         side_text(steps[i - 1].target) + ", but " + steps[i].id + " takes " +
-                                         side_text(steps[i].source));
+      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " converts to " +
+                                         side_text(steps[i - 1].target) + ", but " + steps[i].id +
+                                         " converts from " + side_text(steps[i].source) +
+                                         " (add a step between them)");
     if (!visited.insert(steps[i].target.model).second)
       throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
                                          " a second time (remove a step)");
@@ -61,8 +62,8 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// Returns the first step whose domain a texel leaves, or that follows a step whose target is at its limit.
-// Returns steps.size() if the texel stays inside all. The domain rule handles specular below 0.
+// Returns the first step whose domain a texel leaves, or the step after a step whose target is at its limit.
+// Returns steps.size() if neither happens. The domain rule handles specular below 0.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)
@@ -123,7 +124,7 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
 }
 
 // A CarriedErrors propagates error figures of all steps to the end of the chain. Squares of rms are summed
-// and averaged over the domain. The other figures are summed, and their maximum over the domain is taken.
+// and averaged over the domain. The other figures are summed, and their maximum over the domain is used.
 struct CarriedErrors {
   double square = 0.0;
   ErrorFigures figures;

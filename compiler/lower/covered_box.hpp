@@ -12,8 +12,8 @@ namespace remap {
 // A CoveredColumn is a strip of the region: alpha from `first` to `last`, covered from specular 0 to `reach`.
 struct CoveredColumn {
   double first = 0.0, last = 0.0;
-  double reach = 0.0;   // 0: not covered
-  bool is_gap = false;  // without data; the box may span it
+  double reach = 0.0;   // 0 if the column is not covered
+  bool is_gap = false;  // has no data; the box may span it
 };
 
 // Returns the best box within columns in rising order, or nothing if no column is covered. Outside a domain,

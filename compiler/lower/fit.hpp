@@ -17,8 +17,8 @@ namespace remap {
 // A Domain is the range of the table's data. Beyond its edges, the factors between source and target
 // parameters keep their values at the edge. Only widths above it are clamped.
 struct Domain {
-  Range alpha;     // of the source
-  Range specular;  // of the source, linear, any channel
+  Range alpha;     // range of the source's alpha
+  Range specular;  // range of the source's specular in any channel, linear
   bool operator==(const Domain&) const = default;
 };
 
@@ -32,8 +32,8 @@ struct Limits {
 // A PictureErrors states how much pictures differ from the source's pictures, either with converted or with
 // copied numbers. The fit did not use these materials and lights (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
-  double rmse = 0.0;      // of display values under environments, percent of the display's range
-  double relative = 0.0;  // of linear radiance under a point light, relative to the source's rms
+  double rmse = 0.0;      // RMSE of display values under environments, in percent of the display's range
+  double relative = 0.0;  // error of linear radiance under a point light, relative to the RMS of the source
   bool operator==(const PictureErrors&) const = default;
 };
 struct JudgedPictures {
@@ -55,7 +55,7 @@ struct Split {
   double held_out_fraction = 0.0;
   std::int64_t trained_rows = 0;
   std::int64_t held_out_rows = 0;
-  std::map<std::string, std::int64_t> left_out;  // status -> rows
+  std::map<std::string, std::int64_t> left_out;  // number of rows for each status
   bool operator==(const Split&) const = default;
 };
 
@@ -70,10 +70,11 @@ struct TableRecord {
 // A CandidateRecord is one row of the comparison by which `--model auto` decided
 // (compiler/fit/comparison.hpp).
 struct CandidateRecord {
-  std::string name;              // kind, and its shape
+  std::string name;              // the kind and its shape
   std::size_t number_count = 0;  // number of coefficients: the complexity
   ErrorFigures alpha, specular;  // errors on the held-out rows
-  // These are root mean squares on them relative to the value, or to a fiftieth of 1 if this is more.
+  // These are root mean squares on the held-out rows, relative to the value, or to a fiftieth of 1 if that is
+  // larger.
   double relative_alpha = 0.0, relative_specular = 0.0;
   std::optional<PictureErrors> pictures;  // none if a renderer does not take part
   std::string verdict;                    // `chosen`, or the reason against it
@@ -101,12 +102,12 @@ struct Fit {
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  Limits limits;                                    // of the target
+  Limits limits;                                    // limits of the target
   std::map<std::string, std::string> method;        // facts: hyper-parameters, search, starts
   std::vector<CandidateRecord> candidates;          // from `auto`; otherwise empty
-  ErrorFigures alpha_error;                         // of the target's alpha
-  ErrorFigures specular_error;                      // of the target's specular
-  std::optional<ImageSimilarity> image_similarity;  // none for published formulas
+  ErrorFigures alpha_error;                         // error of the target's alpha
+  ErrorFigures specular_error;                      // error of the target's specular
+  std::optional<ImageSimilarity> image_similarity;  // empty for published formulas
   std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks a model
   std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;

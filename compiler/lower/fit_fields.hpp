@@ -21,7 +21,7 @@ Scaling read_scaling(const Field& field);
 Scaling read_output_scaling(const Field& field);
 
 Json network_json(const Network& network);
-// Reads a network. Refuses another number of outputs, and layers that do not fit each other.
+// Reads a network. Refuses it if the number of outputs differs or if layers do not fit each other.
 Network read_network(const Field& field, std::size_t output_count);
 
 Json figures_json(const ErrorFigures& figures);

@@ -233,7 +233,8 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
                          })};
 }
 
-// Refuses a converter of another fit. Its ends differ, or its golden texels contradict the mapping.
+// Refuses a converter that was made from another fit. Its ends then differ, or its golden texels contradict
+// the mapping.
 void require_own_converter(const Fit& fit, const Field& root) {
   const ConverterInfo& info = fit.converter->info;
   const auto is_near = [](double value, float golden, float within) {
@@ -288,7 +289,9 @@ std::string fit_to_json(const Fit& fit) {
 Fit read_fit(const Field& root) {
   Fit fit;
   fit.id = read_id(root["id"]);
-  fit.converter = read_fitted_converter(root);  // first: older files lack other fields, too
+  // The converter is read first, because files without a converter are old and lack other fields, too. The
+  // message should be about the converter.
+  fit.converter = read_fitted_converter(root);
   fit.source = read_side(root["source"]);
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};

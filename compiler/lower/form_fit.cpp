@@ -15,13 +15,13 @@ namespace remap {
 namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
-constexpr float kMostBend = 4.0f;  // above it, a hinge is a step
+constexpr float kMostBend = 4.0f;  // a hinge with a larger bend is a step
 constexpr double kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
-constexpr double kLeastFactor = 1e-5;   // least factor of a sound form
+constexpr double kLeastFactor = 1e-5;   // a sound form has no smaller factor
 constexpr double kSmallestGain = 2e-5;  // relative gain in the sum of errors
-constexpr double kStep = 1e-5;          // of difference quotients: the smallest change of a number
+constexpr double kStep = 1e-5;          // smallest change of a number for difference quotients
 constexpr double kRidge = 1e-9;         // relative ridge of normal equations
 
 // Pictures show errors relative to a value, and nothing below `least`.
@@ -44,7 +44,7 @@ FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
   return factor;
 }
 
-// Fits the factor from sources to targets, over the samples that `counts` keeps.
+// Fits the factor from sources to targets. It uses only the samples for which `counts` returns true.
 template <typename Counts, typename Source, typename Target>
 std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
                                           double pole, double least_shown, const Counts& counts,
@@ -315,7 +315,7 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
   const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
   const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
   if (!is_limited && is_sound(nearest, domain)) return nearest;
-  // A start that weights small values as much as large ones keeps factors positive if they begin near 0.
+  // This start weights small values as much as large values. It keeps factors positive if they begin near 0.
   std::vector<CompactForm> starts = {nearest, least_squares(samples, limits, shape, kLeastRelative)};
   if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
     starts.push_back(padded(*smaller, shape));

@@ -14,13 +14,13 @@ namespace remap {
 // rises with specular at every alpha. Target alpha rises with alpha along a line of equal target specular.
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target);
 
-// A RoundTrip holds the relative changes |round trip - texel| / texel of alpha and of specular. They cover
-// the part of a grid on the domain of `there` that maps into the domain of `back`, without limits
-// (is_inside()) on both ways.
+// A RoundTrip holds the relative changes |round trip - texel| / texel of alpha and of specular. It uses the
+// texels of a grid on the domain of `there` that arrive in the domain of `back`, without limits (is_inside())
+// in either direction.
 struct RoundTrip {
   double alpha_median = 0.0, alpha_p99 = 0.0;
   double specular_median = 0.0, specular_p99 = 0.0;
-  double share = 0.0;  // part of the grid that both cover; 0: no figures
+  double share = 0.0;  // used part of the grid; 0: there are no figures
 };
 RoundTrip round_trip(const Fit& there, const Fit& back);
 

@@ -16,11 +16,12 @@ inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kM
 inline constexpr std::size_t kMostVectors = 4096;
 // These limit each network.
 inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
-// This limits alpha and specular of a source. Physical values end at 1, scales of some models at a few.
+// This limits alpha and specular of a source. Physical values end at 1, scales of some models at less than
+// 10.
 inline constexpr double kLargestDomain = 1000.0;
 
 // Returns which part of a fit or a network exceeds a limit: `has 5000 support vectors; at most 4096 are
-// possible`. Returns an empty text if none does.
+// possible`. Returns an empty text if no part does.
 std::string oversize(const Fit& fit);
 std::string oversize(const Network& network);
 

@@ -13,10 +13,10 @@
 namespace remap {
 namespace {
 
-constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // of the samples to which a form is fitted
+constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // numbers of samples to which a form is fitted
 constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
-constexpr double kLoosest = 10.0;     // times the tolerances
-constexpr std::size_t kBoxes = 6000;  // the most boxes that a proof examines; takes about a second
+constexpr double kLoosest = 10.0;     // loosest accepted bound, as a multiple of the tolerances
+constexpr std::size_t kBoxes = 6000;  // a proof examines at most this many boxes, which takes about a second
 
 // Returns the shapes, fewest numbers first. A mapping that does not depend on t needs only one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {
@@ -87,7 +87,7 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = options.alpha_tolerance, specular_within = options.specular_tolerance * unit;
   Lowered best;
-  double nearest = INFINITY, proven = INFINITY;  // relative to the tolerances
+  double nearest = INFINITY, proven = INFINITY;  // both are relative to the tolerances
   for (const FormShape& shape : lowering_shapes(fit.mapping)) {
     const CompactForm form = fit_form(samples, {}, fit.domain, shape);
     const Distance sampled = sampled_distance(form, samples), rounding = rounding_of(form, fit.domain);

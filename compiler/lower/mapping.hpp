@@ -47,7 +47,7 @@ struct SpecularTerm {
 // of the terms. The form of the paper has one row of four in `alpha` and one term of power 1.
 struct Parametric {
   std::vector<std::vector<double>> alpha;
-  std::vector<SpecularTerm> specular;  // powers never fall; terms of one power add up
+  std::vector<SpecularTerm> specular;  // powers never decrease; terms with equal powers are added
   bool operator==(const Parametric&) const = default;
 };
 

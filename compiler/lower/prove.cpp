@@ -39,7 +39,8 @@ double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
 Verdict verdict(const TexelTaylor& error, const Box& box) {
   const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
-  // If the remainder dominates the polynomial, the extents are meaningless, so halve both in turn.
+  // If the remainder dominates the polynomial, the extents are meaningless. The box is then halved along
+  // alpha and specular in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
   return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
@@ -82,8 +83,8 @@ std::array<Box, 2> halves(const Box& box, bool halve_alpha) {
   return {low, high};
 }
 
-// Halves the worst box until the worst bound is at most `target`, the budget is spent, or the target turns
-// out to be unreachable.
+// Halves the worst box until the worst bound is at most `target`, the budget is spent, or it is clear that
+// the target cannot be reached.
 double proven_bound(const TexelFunction& error, const Domain& domain, double target, std::size_t budget) {
   std::priority_queue<JudgedBox> queue;
   double at_least = -INFINITY;
@@ -141,8 +142,8 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
 Distance rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
-  // The error is relative to the sum of the magnitudes. It covers sum, quotient, width and product, or the
-  // hinge.
+  // The error is relative to the sum of the magnitudes. It covers the sum, the quotient, and then either
+  // width and product or the hinge.
   const auto relative = [](std::size_t operations) {
     const double n = static_cast<double>(operations) * 2.0 * kFloatUnit;
     return n / (1.0 - n);

@@ -11,9 +11,9 @@ struct Distance {
   double alpha = 0.0, specular = 0.0;
 };
 
-// Returns bounds on |form - mapping| in real arithmetic over the whole domain, infinite if none was found. It
-// halves boxes until the bounds are at most `target`, `box_budget` boxes have been examined for each, or a
-// box shows that the target cannot be reached.
+// Returns bounds on |form - mapping| in real arithmetic over the whole domain. They are infinite if none was
+// found. It halves boxes until the bounds are at most `target`, `box_budget` boxes have been examined for
+// each, or a box shows that the target cannot be reached.
 Distance proven_distance(const MappingKind& mapping, const CompactForm& form, const Domain& domain,
                          const Distance& target, std::size_t box_budget);
 

@@ -22,7 +22,7 @@ class Taylor {
 
  public:
   static constexpr int kCount = Variables == 1 ? Order + 1 : (Order + 1) * (Order + 2) / 2;
-  static constexpr double kUnit = 2.3e-16;  // above the unit roundoff of a double, with room
+  static constexpr double kUnit = 2.3e-16;  // slightly above the unit roundoff of a double
   static constexpr double kRoundUp = 1.0 + (kCount + 2) * kUnit;
 
   Taylor() = default;
@@ -166,7 +166,7 @@ Taylor<V, N> rise(double rate, const Taylor<V, N>& x) {
   }
   left *= x.deviation() / (N + 1);
   // The coefficients round in proportion to the argument of exp. Their sum belongs to a function below 1 /
-  // rate, and below x if the rate is small. z exp(-z) < 1.
+  // rate, and below x if the rate is small. Note that z exp(-z) < 1.
   return Taylor<V, N>::compose(x, series,
                                left * (1.0 + 1e-12) + 4e-15 * (std::fabs(series[0]) + x.deviation()));
 }
@@ -209,7 +209,8 @@ Taylor<V, N> hyperbolic_tangent(const Taylor<V, N>& x) {
   return Taylor<V, N>::compose(x, series, left + 1e-15);
 }
 
-// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and it less -l u / (u - l).
+// Over [l, u] around 0, max(x, 0) lies between the chord u (x - l) / (u - l) and the same chord lowered by -l
+// u / (u - l).
 template <int V, int N>
 Taylor<V, N> rectified(const Taylor<V, N>& x) {
   const double low = x.constant() - x.deviation(), high = x.constant() + x.deviation();
@@ -288,7 +289,7 @@ Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Ta
         kept += std::fabs(term);
       }
     const double total = x.total * y.total;
-    // Not std::max, which would drop a NaN.
+    // std::max would drop a NaN.
     const double unkept = total - kept < 0.0 ? 0.0 : total - kept;
     left += std::fabs(weight) * (unkept + summing * total + x.rounding * y.total + x.total * y.rounding +
                                  1e-300);  // lost by underflow

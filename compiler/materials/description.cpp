@@ -29,7 +29,7 @@ constexpr std::array<BuiltIn, 9> kBuiltIns = {{{"min", 2},
                                                {"channel", 2},
                                                {"color", 1}}};
 
-// A line of a file that holds a statement, and the comment above it.
+// A SourceLine is a statement of a file, with the comment above it.
 struct SourceLine {
   std::size_t number = 0;
   std::string comment, text;
@@ -45,8 +45,8 @@ bool begins_with_operator(const std::string& words) {
   return std::string_view("+-*/?:").find(words.front()) != std::string_view::npos;
 }
 
-// Joins a line with the one before it if it begins with an operator. The first comment, if a blank line
-// follows, is `head`.
+// Returns the statements of a file. A line that begins with an operator continues the line before it. If a
+// blank line follows the first comment, `head` receives that comment.
 std::vector<SourceLine> lines_of(std::string_view text, std::string* head) {
   std::vector<SourceLine> lines;
   std::istringstream stream{std::string(text)};
@@ -200,7 +200,7 @@ class ExpressionParser {
   std::size_t at_ = 0;
 };
 
-// Calls `parse(line)`, and adds the place to what it throws.
+// Calls `parse(line)`. If it throws, the message gets the file and the line.
 template <typename Parse>
 void at_line(const std::string& name, const SourceLine& line, const Parse& parse) {
   try {
@@ -210,7 +210,7 @@ void at_line(const std::string& name, const SourceLine& line, const Parse& parse
   }
 }
 
-// The expression with every call of a function replaced by its body.
+// Returns the expression with every call of a function replaced by its body.
 Expression inlined(const Expression& expression, const std::vector<FormulaFunction>& functions) {
   Expression result = expression;
   for (Expression& term : result.terms) term = inlined(term, functions);
@@ -229,7 +229,7 @@ Expression inlined(const Expression& expression, const std::vector<FormulaFuncti
   return inlined(replaced(replaced, function->body), functions);
 }
 
-// The type of an expression of names whose types are known.
+// Returns the type of an expression. `names` holds the types of its names.
 ValueType type_of(const Expression& expression, const std::map<std::string, ValueType>& names) {
   if (expression.op == Op::kNumber) return ValueType::kNumber;
   if (expression.op == Op::kName) {
@@ -293,7 +293,7 @@ MaterialLibrary load_library() {
   const auto model = [&](const std::string& id) -> const MaterialModel& {
     return *std::ranges::find(library.models, id, &MaterialModel::id);
   };
-  // In the order of demand.
+  // The translations that people ask for most come first.
   constexpr std::array<std::array<const char*, 3>, 9> kShipped = {
       {{"UsdPreviewSurface", "open_pbr_surface", ""},
        {"principled", "open_pbr_surface", ""},

@@ -1,4 +1,5 @@
-// Whole materials of two models, and the statements that translate one into the other.
+// This file describes whole materials of two models, and the statements that translate one model into the
+// other.
 //
 // A model is a list of inputs with their defaults (descriptions/models.txt). A translation is a file of
 // statements, descriptions/FROM_to_TO.txt:
@@ -7,10 +8,10 @@
 //   w = source.coat_weight
 //   target.coat = w > 0 ? w : 0
 //
-// A value is a number or a color; operations with a color work on each channel. Operators are + - * /, ^ with
+// A value is a number or a color. Operations with a color work on each channel. Operators are + - * /, ^ with
 // an exponent of 2 to 4, and `a > b ? x : y` or `a == b ? x : y` of numbers. Functions are min, max, mix(a,
-// b, t), pow, sqrt, exp, largest(color), channel(color, 0), color(number), and those of
-// descriptions/functions.txt: `f0(n) = ...`.
+// b, t), pow, sqrt, exp, largest(color), channel(color, 0), color(number), and the functions that
+// descriptions/functions.txt defines: `f0(n) = ...`.
 #pragma once
 
 #include <string>
@@ -24,19 +25,19 @@ namespace remap {
 struct MaterialInput {
   std::string name;
   ValueType type = ValueType::kNumber;
-  std::vector<float> value;  // the default: one number, or three of a color
+  std::vector<float> value;  // the default: one number, or three for a color
 };
 
 struct MaterialModel {
-  std::string id;     // of MaterialX' node definitions where it has one: `open_pbr_surface`
-  std::string title;  // with its version
+  std::string id;     // the node name in MaterialX if it has the model: `open_pbr_surface`
+  std::string title;  // name and version
   std::vector<MaterialInput> inputs;
 
   const MaterialInput* find(std::string_view name) const;
 };
 
-// A statement, under the comment of the file. An input of the source is the name `source.x`; the statement of
-// an output is named `target.x`.
+// A TranslationLine is a statement with the comment above it. The name of a source's input is `source.x`, and
+// the name of a target's input is `target.x`.
 struct TranslationLine {
   std::string comment;
   Statement statement;
@@ -45,12 +46,12 @@ struct TranslationLine {
 struct Translation {
   const MaterialModel* from = nullptr;
   const MaterialModel* to = nullptr;
-  std::string variant;  // `_specular` for a second one between the same models
-  std::string comment;  // what heads the file
+  std::string variant;  // such as `_specular`, for a second translation between the same models
+  std::string comment;  // the comment at the top of the file
   std::vector<TranslationLine> lines;
 
   std::string id() const { return from->id + "_to_" + to->id + variant; }
-  // Inputs of the source that no statement uses.
+  // Returns the inputs of the source that no statement uses.
   std::vector<std::string> ignored() const;
 };
 
@@ -60,13 +61,13 @@ struct MaterialLibrary {
   std::vector<Translation> translations;
 };
 
-// Each throws kInput with the line and what is wrong. `name` is that of the file.
+// These functions throw kInput with the line and what is wrong. `name` is the name of the file, for messages.
 std::vector<MaterialModel> parse_models(std::string_view text, const std::string& name);
 std::vector<FormulaFunction> parse_functions(std::string_view text, const std::string& name);
 Translation parse_translation(std::string_view text, const std::string& name, const MaterialModel& from,
                               const MaterialModel& to, const std::vector<FormulaFunction>& functions);
 
-// What ships: the descriptions that are compiled in.
+// Returns the descriptions that are compiled in.
 const MaterialLibrary& material_library();
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Node graphs of MaterialX.
+// This file writes node graphs of MaterialX.
 #include "core/number_text.hpp"
 #include "formula/graph_writer.hpp"
 #include "materials/materials.hpp"

@@ -1,4 +1,4 @@
-// The C++ header.
+// This file writes the C++ header.
 #include <algorithm>
 #include <cctype>
 
@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// open_pbr_surface: OpenPbrSurface.
+// Turns `open_pbr_surface` into `OpenPbrSurface`.
 std::string type_name(const std::string& id) {
   std::string name;
   bool is_first = true;

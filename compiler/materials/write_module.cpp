@@ -1,4 +1,4 @@
-// The Python module.
+// This file writes the Python module.
 #include "core/number_text.hpp"
 #include "formula/text_template.hpp"
 #include "materials/materials.hpp"

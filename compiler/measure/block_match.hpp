@@ -28,7 +28,7 @@ struct SweepSetup {
   ProbedModel source;
   MatchTarget target;
   double irradiance_scale = 1.0;     // multiplies the source's pictures
-  DiffuseMatch diffuse;              // after that multiplication
+  DiffuseMatch diffuse;              // measured after that multiplication
   std::unique_ptr<TargetGrid> grid;  // set for a target without a family
   EffectiveWidths source_widths, target_widths;
 

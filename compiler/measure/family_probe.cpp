@@ -29,8 +29,8 @@ double chebyshev_point(std::size_t index) {
 }
 
 // Does one step of Gauss-Jordan elimination on normal equations. Afterwards row `pivot` holds the weights of
-// that picture in the least-squares fits of the other pictures by all pivots so far. Each diagonal entry of
-// the rest is the squared residual of that picture.
+// this picture when all pivots so far fit the other pictures by least squares. Each diagonal entry that was
+// not a pivot is the squared residual of its picture.
 void eliminate(std::size_t pivot, Matrix* gram) {
   Matrix& g = *gram;
   const double scale = 1.0 / g[pivot][pivot];
@@ -63,7 +63,8 @@ class FamilyProbe {
     return holds(points, family(points, identity), degree);
   }
 
-  // Returns the fewest of those pictures whose combinations reproduce all others.
+  // Returns a family of as few pictures as possible, taken from the nodes of `degree`, whose combinations
+  // reproduce all others.
   SpecularFamily smallest(std::size_t degree) {
     Matrix gram = gram_matrix(degree);
     std::vector<std::size_t> pivots;
@@ -140,7 +141,7 @@ class FamilyProbe {
   }
 
   // Returns sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are
-  // divided by the brightest pixel of their width, so that all widths count equally.
+  // divided by the brightest pixel of their width, so that all widths have the same weight.
   Matrix gram_matrix(std::size_t degree) {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
     for (Width& width : widths_) {

@@ -11,8 +11,9 @@
 namespace remap {
 namespace {
 
-constexpr double kJointRivalError = 1.01;    // see kRivalError in match.cpp
-constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
+constexpr double kJointRivalError = 1.01;  // see kRivalError in match.cpp
+// rivals whose parameters differ by less than this fraction are the same answer
+constexpr double kJointRivalDistance = 0.1;
 // A search ends at this relative change of the squared error. Rivals are compared with the answer only to one
 // percent, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;
@@ -86,8 +87,8 @@ double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
 }  // namespace
 
 // A PictureCost reduces the residuals of a whole picture to a few numbers. A trust-region step depends only
-// on J^T J, J^T r and r^T r, and the triangle R of [J r] = Q R gives the same products. So its columns serve
-// as the Jacobian and the residual.
+// on J^T J, J^T r and r^T r. The triangle R of [J r] = Q R gives the same products, so Ceres gets the columns
+// of R as Jacobian and residual.
 class JointMatcher::PictureCost final : public ceres::CostFunction {
  public:
   PictureCost(const JointMatcher& matcher, const RoleValues& guess)

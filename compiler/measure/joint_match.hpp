@@ -31,8 +31,8 @@ struct JointChannel {
 
 struct JointMatch {
   std::vector<RoleValues> points;  // canonical, one for each channel
-  double error = 0.0;              // of the objective: weighted relative RMS over all channels
-  double picture_error = 0.0;      // the same over only the pixels, without means
+  double error = 0.0;              // as the objective defines it: weighted relative RMS over all channels
+  double picture_error = 0.0;      // like `error`, but only over the pixels, without means
   bool converged = false;
   RowStatus status = RowStatus::kOk;
 

@@ -13,11 +13,11 @@ namespace {
 
 // The search starts on every sixth node of the bank; minima of the loss are far wider than that.
 constexpr std::size_t kCoarseStride = 6;
-// A second minimum makes a match unstable if its error is within 1 % of the best and its width differs from
-// the widths of the neighbouring nodes.
+// A second minimum makes a match unstable if its error is within 1 % of the best error and its width is more
+// than two bank steps away.
 constexpr double kRivalError = 1.01;
-// A second specular at one width also makes a match unstable, if it differs by this fraction of the range.
-// Errors up to kSameError are rounding errors of pictures.
+// A second specular at one width also makes a match unstable if it differs by this fraction of the range.
+// Errors up to kSameError are treated as equal, because they are rounding errors of pictures.
 constexpr double kRivalDistance = 0.02;
 constexpr double kSameError = 1e-4;
 

@@ -15,22 +15,23 @@ namespace remap {
 struct Match {
   double alpha = 0.0;
   double specular = 0.0;
-  double error = 0.0;          // of the objective: sqrt(loss / weighted source power)
-  double picture_error = 0.0;  // the same over only the pixels, without means
+  double error = 0.0;          // as the objective defines it: sqrt(loss / weighted source power)
+  double picture_error = 0.0;  // like `error`, but only over the pixels, without means
   RowStatus status = RowStatus::kOk;
 };
 
 // A Matcher matches source materials whose pictures share weights and are combinations of the same few
 // pictures: source = sum of coefficient[k] * basis[k]. Inner products with the bank are computed once for
-// each node instead of once for each material. It is not thread-safe; its bank is.
+// each node instead of once for each material. A Matcher is not thread-safe, but its bank is.
 class Matcher {
  public:
   // `basis` has at least one picture, of as many numbers as `weights`.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights);
 
-  // Finds the best match; kUnstable if another width or specular gives as good a picture. `minima` holds the
-  // bank nodes to start from and receives the nodes of the minima found. If it is empty, the whole bank is
-  // searched. Materials of similar specular share their minima, so passing them on saves most of the search.
+  // Finds the best match. It is kUnstable if another width or specular gives an equally good picture.
+  // `minima` holds the bank nodes where the search starts, and receives the nodes of the minima found. If it
+  // is empty, the whole bank is searched. Materials of similar specular have the same minima, so it saves
+  // most of the search to pass `minima` from one to the next.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:
@@ -60,7 +61,7 @@ class Matcher {
   std::vector<std::vector<float>> basis_;
   PictureWeights weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  // These are Gram matrices of the basis pictures: of all samples, and of only mean pixels.
+  // These are Gram matrices of the basis pictures, over all samples and over only the means.
   std::vector<std::vector<double>> power_, power_of_means_;
   std::map<std::size_t, NodeProducts> products_;
 };

@@ -55,7 +55,7 @@ void require_roleless(const ModelDescription& model, const std::vector<std::stri
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
       throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
-                                         " and varies anyway (name a parameter without a role)");
+                                         " and varies anyway (choose a parameter without a role)");
 }
 
 std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelDescription& source) {
@@ -72,7 +72,7 @@ std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelD
     if (std::none_of(all.begin(), all.end(),
                      [&](const Varied& varied) { return varied.parameter.name == given.first; }))
       throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
-                                         " has a range but does not vary (add it to the varied parameters)");
+                                         " has a range but does not vary (add --vary " + given.first + ")");
   return all;
 }
 
@@ -179,7 +179,8 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
                        const ModelDescription& source, const ModelDescription& target) {
   std::vector<Varied> varied =
-      varied_of(options, source);  // may throw: not within the aggregate (make_setup)
+      // This may throw, so it is computed before the aggregate is made (see make_setup in sweep.cpp).
+      varied_of(options, source);
   Matching matching{options, picture_taker, source, std::move(varied), {}, {}};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));

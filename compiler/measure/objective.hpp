@@ -13,7 +13,7 @@ namespace remap {
 
 enum class Weighting {
   kUniform,   // L2 of linear radiance (the paper)
-  kRelative,  // w = cos_view / (I / max(I) + floor), from only the source picture I
+  kRelative,  // w = cos_view / (I / max(I) + floor), where I is the source picture
 };
 
 inline constexpr NamedValues<Weighting, 2> kWeightings = {
@@ -29,7 +29,8 @@ struct Objective {
   double floor = 0.1;       // used by kRelative
   double mean_share = 0.0;  // used by kRelative
 
-  // The root of loss over power, times this factor, is relative to the power of the pixels.
+  // Multiplies the root of loss over power. The error is then relative to the power of the pixels, without
+  // means.
   double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
@@ -44,7 +45,8 @@ struct Objective {
 Objective objective_preset(const std::string& name);
 inline const std::vector<std::string> kObjectives = {"natural", "natural-1", "natural-2", "paper"};
 
-// Returns the objective that a file names. In files, `natural` means `natural-1`, once the only one.
+// Returns the objective that a file names. In files, `natural` means `natural-1`, because files that say
+// `natural` were written before `natural-2` existed.
 Objective recorded_objective(const std::string& name);
 
 // A picture is black if no value is above this radiance.
@@ -57,8 +59,8 @@ struct PictureWeights {
 };
 
 // Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`
-// pixels for each light, followed by its mean if the objective compares means; max(I) is taken for each
-// picture separately.
+// pixels for each light. Each picture is followed by its mean if the objective compares means. max(I) is the
+// maximum of one picture.
 PictureWeights squared_weights(const Objective& objective, std::span<const float> source,
                                std::span<const float> view_cosines);
 

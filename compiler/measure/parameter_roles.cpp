@@ -49,7 +49,7 @@ void measure_widths(ModelDescription* model) {
     throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
                                        " is invalid for the convention " +
                                        std::string(encoding_name(model->roughness)) +
-                                       " (name another one: " + roughness.name + ":CONVENTION)");
+                                       " (choose another convention: " + roughness.name + ":CONVENTION)");
   model->alpha = alphas;
 }
 
@@ -88,7 +88,7 @@ ModelDescription recast(const ModelDescription& model, const ParameterRoles& rol
                                        " no longer has a role and needs a value (add " + *displaced.begin() +
                                        "=VALUE to the fixed parameters)");
   for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
-    if (model.has(role)) result.parameter(role);  // throws if another role has taken the parameter
+    if (model.has(role)) result.parameter(role);  // throws if another role already uses the parameter
   if (!roles.roughness.empty() || roles.convention) measure_widths(&result);
   return result;
 }

@@ -20,7 +20,8 @@ struct RoleValues {
   double alpha = 0.0;
   double specular = 0.0;
   double diffuse = 0.0;
-  std::map<std::string, double> others;  // kOther parameters by name; missing ones keep their standard values
+  // values of kOther parameters by name; missing parameters have their standard values
+  std::map<std::string, double> others;
 
   RoleValues() = default;
   RoleValues(double alpha_value, double specular_value, double diffuse_value,
@@ -40,11 +41,12 @@ struct ProbedModel {
   // This is set for a model without a law, if probe_family found a family.
   std::optional<SpecularFamily> curve = std::nullopt;
 
-  // Returns how pictures depend on specular, by the law if there is one, otherwise by the curve. Returns
-  // nothing if every picture must be rendered.
+  // Returns how pictures depend on specular: by the law if there is one, otherwise by the interpolated
+  // family. Returns nothing if every picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
-  // Return the canonical speculars that the model accepts, and those with a linear picture (up to the knee).
+  // Return the range of canonical specular that the model accepts, and the part of it in which pictures are
+  // linear (up to the knee).
   Range specular_range() const;
   Range linear_range() const;
   Range diffuse_range() const;  // 0 to 0 for models without diffuse
@@ -54,8 +56,9 @@ class PictureTaker {
  public:
   PictureTaker(const Renderer& renderer, const Objective& objective, int resolution, int samples_per_axis);
 
-  // Renders `model` under each light in turn: pixel_count() floats each, and the mean. `specular` is the
-  // model's own parameter. Throws kInput for a picture of another size and for values that are not finite.
+  // Renders `model` under each light in turn. Each picture has pixel_count() floats and the mean if the
+  // objective compares means. `specular` is the model's own parameter. Throws kInput for a picture of another
+  // size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
 
   // Renders with a canonical specular, clamped to the model's range, and applies the exposure.

@@ -1,5 +1,5 @@
 // This file handles polynomials in one variable, as coefficients in ascending powers. The loss of a match is
-// one in specular.
+// a polynomial in specular.
 #pragma once
 
 #include <vector>

@@ -22,7 +22,7 @@ constexpr double kPictureTolerance = 2e-6;
 constexpr double kRatioTolerance = 1e-6;
 // This is the relative precision of the end of the widths that a renderer clamps.
 constexpr double kWidthPrecision = 2e-3;
-// Bisection stops here: a knee below this share of the range has no practical effect.
+// Bisection stops here: a knee below 2^-20 of the range has no practical effect.
 constexpr int kMostHalvings = 20;
 
 // Returns the tolerance for a quotient of sums, like picture_tolerance.
@@ -89,7 +89,8 @@ class SpecularProbe {
     return picture_taker_.take(model_, RoleValues{alpha, specular, 0.0});
   }
 
-  // Returns false, which means unknown, if the range does not begin at 0, in F0 for a range of indices.
+  // Returns true if pictures are black at specular 0, or at index 1. It returns false if the range does not
+  // begin there, because the answer is then unknown.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
     return std::all_of(widths_.begin(), widths_.end(),
@@ -103,8 +104,8 @@ class SpecularProbe {
     return worst;
   }
 
-  // Returns how much pictures differ from affine in the F0 of an index: in the middle of the range of
-  // indices, and at half of the range of F0.
+  // Returns how far pictures are from affine in F0, for a model whose specular is an index of refraction. It
+  // compares pictures in the middle of the range of indices, and in the middle of the range of F0.
   double ior_deviation() const {
     if (range_.min < 1.0) return 1.0;
     const double low = normal_reflectance(range_.min), high = normal_reflectance(range_.max);

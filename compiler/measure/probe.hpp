@@ -12,8 +12,8 @@ namespace remap {
 SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDescription& model,
                                 const Range& alphas);
 
-// Returns the deviation of a pixel, relative to the brightest of its picture, that rounding of the pictures
-// can cause; larger deviations contradict a law.
+// Returns how far rounding can move a pixel, relative to the brightest pixel of its picture. Larger
+// deviations contradict a law.
 double picture_tolerance(const ModelDescription& model);
 
 // An EffectiveWidths holds a sweep's widths, and the part in which the width changes the picture.
@@ -24,8 +24,8 @@ struct EffectiveWidths {
 };
 
 // Finds the part of `alphas` in which the width changes the picture. Renderers may clamp smaller widths, or
-// treat them as a mirror, which shows no point light. Accurate to 0.2 %. Renders 4 pictures, and about 25
-// more for each end that is clamped. Throws kInput if no width in `alphas` changes the picture.
+// treat them as a mirror, which shows no point light. The result is accurate to 0.2 %. Renders 4 pictures,
+// and about 25 more for each end that is clamped. Throws kInput if no width in `alphas` changes the picture.
 EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescription& model,
                              const Range& alphas);
 
@@ -33,10 +33,10 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
 bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas);
 
 // A DiffuseMatch holds the factor between the diffuse parameters of two models that gives the same diffuse
-// light, by least squares. It also holds the RMS of the rest, relative to the source. The diffuse picture is
-// the difference of two pictures, so a Fresnel rim does not count as diffuse. This is the first stage of the
-// two-stage match (section 3.1), and its ratio also matches the irradiance (section 4). A scale that cannot
-// be distinguished from 1 in float pictures is 1.
+// light, by least squares. It also holds the RMS of the remaining difference, relative to the source. The
+// diffuse picture is the difference of two pictures, so it contains no Fresnel rim. This is the first stage
+// of the two-stage match (section 3.1), and its ratio also matches the irradiance (section 4). A scale that
+// cannot be distinguished from 1 in float pictures is 1.
 struct DiffuseMatch {
   double scale = 1.0;
   double error = 0.0;

@@ -26,8 +26,9 @@ namespace {
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // This resolution suffices, because the law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
-constexpr double kLeastProbedAlpha = 0.1;  // or where the model begins
-// This many widths have their spheres compared, spread over the widths of a table. Each uses the usable row
+// smallest probed alpha, or the model's least alpha if that is larger
+constexpr double kLeastProbedAlpha = 0.1;
+// The spheres of this many widths are compared, spread over the widths of a table. Each uses the usable row
 // whose specular1 is closest to half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
 
@@ -67,7 +68,8 @@ void require_alphas(const SweepOptions& options, const ModelDescription& source)
   for (const SamplePoint& sample : options.samples)
     if (!source.alpha.contains(sample.alpha))
       throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
-                                         " is out of range (" + range_text(source.alpha) + ")");
+                                         " is out of range (choose samples from " + range_text(source.alpha) +
+                                         ")");
 }
 
 void require_speculars(const SweepOptions& options, const ProbedModel& source) {
@@ -75,7 +77,8 @@ void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   for (const SamplePoint& sample : options.samples)
     if (!speculars.contains(sample.specular))
       throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
-                                         " is out of range (" + range_text(speculars) + ")");
+                                         " is out of range (choose samples from " + range_text(speculars) +
+                                         ")");
 }
 
 // Pictures are floats: digits beyond the ninth carry no information.

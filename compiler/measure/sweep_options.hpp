@@ -35,7 +35,7 @@ struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
   std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
   int stages = 2;                    // 1, 2 or 3 (section 3.1)
-  double diffuse = 0.0;              // of the source, in every sample
+  double diffuse = 0.0;              // diffuse of the source in every sample
 };
 
 // A SweepExecution decides how a sweep runs. None of this changes the table.

@@ -9,8 +9,8 @@
 namespace remap {
 namespace {
 
-// This factor makes steps narrower at the upper end, where all nodes of an interpolation are on one side.
-// This multiplies the error by about 40, and steps a quarter as wide divide it by 4^11.
+// Steps at the upper end are narrower by this factor. All nodes of an interpolation are on one side there,
+// which multiplies its error by about 40. Steps a quarter as wide divide the error by 4^11.
 constexpr double kEdgeRefinement = 4.0;
 
 constexpr double kNarrowing = 4.0;
@@ -20,9 +20,9 @@ constexpr std::size_t kWidths = 14;
 constexpr std::size_t kSpeculars = 8;
 constexpr std::size_t kMostMinima = 3;
 
-// Returns widths that descend from the largest alpha. First comes a window of narrow steps, then full ones,
-// to the first width at or below the smallest alpha. It ends at that alpha itself if the next step would fall
-// below `least`, the model's limit.
+// Returns widths that descend from the largest alpha. First comes a window of narrow steps, then full steps,
+// to the first width at or below the smallest alpha. It ends at the smallest alpha itself if the next step
+// would fall below `least`, the model's limit.
 std::vector<double> bank_alphas(const Range& alphas, double ratio, double least) {
   const double bottom = std::log(alphas.min), top = std::log(alphas.max), step = std::log(ratio);
   double narrow_step = step / kEdgeRefinement;

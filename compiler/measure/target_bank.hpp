@@ -1,5 +1,6 @@
-// This file holds the bank of target pictures. For widths on a geometric grid it has the few pictures whose
-// combinations give all others of that width (SpecularFamily). Each is rendered when a search first needs it.
+// This file holds the bank of target pictures. At each width of a geometric grid, the bank has the few
+// pictures whose combinations give all others of that width (SpecularFamily). A picture is rendered when a
+// search first needs it.
 #pragma once
 
 #include <atomic>
@@ -17,14 +18,14 @@ namespace remap {
 inline constexpr double kBankRatio = 1.05;
 
 // Returns the widths of `target` to search for sources whose narrowest width is `narrowest`. They start at a
-// quarter of it; no pair of the hub differs by more than a factor of 2.
+// quarter of `narrowest`, because no pair of the hub differs by more than a factor of 2.
 Range searched_widths(const ModelDescription& target, double narrowest);
 
 class TargetBank {
  public:
   // Makes a bank for widths in `alphas`, clamped to the model's range. Neighbours are at most `ratio` apart,
-  // the last two 1.5 times as much. They are closer at the upper end, where interpolation has nodes only on
-  // one side. `target` must have a family (ProbedModel::family).
+  // and the last two at most 1.5 times as far. They are closer at the upper end, where interpolation has
+  // nodes only on one side. `target` must have a family (ProbedModel::family).
   TargetBank(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas, double ratio);
 
   std::size_t size() const { return alphas_.size(); }

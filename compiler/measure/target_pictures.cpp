@@ -12,7 +12,7 @@ namespace remap {
 namespace {
 
 // This is the step of central differences, as a fraction of alpha or of the range. The truncation error is
-// its square, the rounding error is a float's divided by it.
+// the square of the step, the rounding error is that of a float divided by the step.
 constexpr double kDifferenceStep = 1e-3;
 // This many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
@@ -113,7 +113,8 @@ void BankPictures::add_at_width(std::span<const RoleValues> points, const std::v
                         {std::vector<float>(pixels), std::vector<float>(pixels),
                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}});
   }
-  std::vector<PixelBlock> interpolated(members), interpolated_rise(members);  // shared by the points
+  // these blocks are used for all points
+  std::vector<PixelBlock> interpolated(members), interpolated_rise(members);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);
     for (std::size_t k = 0; k < members; ++k) {

@@ -13,7 +13,7 @@ namespace remap {
 
 // A Coordinate is one parameter that a match varies: alpha, canonical specular, diffuse, then others by name.
 struct Coordinate {
-  std::string name;     // set only for others
+  std::string name;     // empty for alpha, specular and diffuse
   Range range;          // a single value if the target has no such parameter
   bool shared = false;  // one value for all color channels
 };
@@ -24,7 +24,7 @@ inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDif
 // PictureTaker::take.
 struct PictureTangents {
   std::vector<float> picture;
-  std::vector<std::vector<float>> by;  // empty where not wanted
+  std::vector<std::vector<float>> by;  // pictures that were not asked for are empty
 };
 
 class TargetPictures {
@@ -35,7 +35,7 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // Returns one picture for each of `points`; successive points of one width are cheaper. `wanted` selects
+  // Returns one picture for each of `points`. Successive points of one width are cheaper. `wanted` selects
   // the coordinates by which the pictures are differentiated. Thread-safe.
   virtual std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
                                           const std::vector<bool>& wanted) const = 0;
@@ -62,7 +62,7 @@ class BankPictures final : public TargetPictures {
                     std::vector<PictureTangents>* results) const;
 
   const TargetBank& bank_;
-  std::vector<float> diffuse_;  // added by diffuse 1
+  std::vector<float> diffuse_;  // light that diffuse 1 adds
 };
 
 // A RenderedPictures renders pictures of any target, with derivatives by central differences (one-sided at
@@ -85,13 +85,13 @@ class RenderedPictures final : public TargetPictures {
 
 // A MatchTarget is a target with the pictures that matches use.
 struct MatchTarget : ProbedModel {
-  std::unique_ptr<TargetBank> bank;          // if it has a family
-  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches; otherwise null
+  std::unique_ptr<TargetBank> bank;          // null if the target has no family
+  std::unique_ptr<TargetPictures> pictures;  // null if no match is non-linear
 };
 
 // Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. It makes
 // pictures for non-linear matches if the target has no family, or for matches `with_diffuse`. `searched`
-// holds the widths of the match. `others` is as in RenderedPictures; with some of them there is no bank.
+// holds the widths of the match. `others` is as in RenderedPictures. If it is not empty, there is no bank.
 MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
                          const Range& probed, bool with_diffuse, const std::vector<std::string>& others = {});
 

@@ -1,6 +1,6 @@
-// This file holds fully connected networks, and their formula over any scalar. Doubles serve the interpreter,
-// Taylor models the proofs. A scalar needs +, -, * with itself and with double, and the functions that are
-// declared for double here.
+// This file holds fully connected networks, and their formula over any scalar. The interpreter uses the
+// formula with doubles, the proofs use it with Taylor models. A scalar needs +, -, * with itself and with
+// double, and the functions that are declared for double here.
 #pragma once
 
 #include <cmath>
@@ -13,12 +13,12 @@
 
 namespace remap {
 
-// A Scaling is normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole), which
-// spreads values near 0, where curves over alpha bend most.
+// A Scaling computes normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole). The
+// pole spreads values near 0, where curves over alpha bend most.
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0
-  double pole = 0.0;   // >= 0; 0: t = value. Outputs have none
+  double pole = 0.0;   // >= 0; with 0, t is the value; outputs have no pole
   bool operator==(const Scaling&) const = default;
 };
 
@@ -36,7 +36,8 @@ struct Layer {
   bool operator==(const Layer&) const = default;
 };
 
-// A Network is fully connected, with normalised ends, and `activation` after all layers except the last.
+// A Network is fully connected. Its inputs and outputs are normalised, and `activation` follows all layers
+// except the last.
 struct Network {
   Activation activation = Activation::kTanh;
   std::vector<Scaling> inputs;

@@ -1,6 +1,6 @@
 // This file converts whole materials between the two workflows, by every formula that is measured or ships,
-// texel by texel. Closed forms use floats, with the same bits as the generated header of the conversion if
-// products and sums are not fused. Networks are interpreted in double precision, to test their headers.
+// texel by texel. Closed forms use floats. If products and sums are not fused, they give the same bits as the
+// generated header. Networks are interpreted in double precision, to test their headers.
 #pragma once
 
 #include <array>
@@ -59,7 +59,7 @@ struct LearnedNetwork {
 
 using WorkflowFormula = std::variant<Equation2, Projection, Equation3, KhronosSolver, LearnedNetwork>;
 
-// Returns true if the formula was trained on a table; the others are closed forms.
+// Returns true if the formula was trained on a table. All others are closed forms.
 inline bool is_learned(const WorkflowFormula& formula) noexcept {
   return std::holds_alternative<LearnedNetwork>(formula);
 }
@@ -111,9 +111,9 @@ struct MetallicMaterial {
 };
 
 // Converts `count` texels. `in` and `out` have one row per channel, in the order of source_parameters() and
-// target_parameters(). An output row may equal an input row; other rows must not overlap. Values outside [0,
-// 1] are clamped; NaN makes the outputs that depend on it NaN. Returns the number of texels with such values.
-// Throws kUsage for a wrong number of rows, and the errors of require_valid().
+// target_parameters(). An output row may equal an input row. Other rows must not overlap. Values outside [0,
+// 1] are clamped, and NaN makes the outputs that depend on it NaN. Returns the number of texels with such
+// values. Throws kUsage for a wrong number of rows, and the errors of require_valid().
 std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t count,
                              std::span<const float* const> in, std::span<float* const> out);
 
@@ -122,19 +122,20 @@ MetallicMaterial to_metallic(const WorkflowConversion& conversion, const Specula
 SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material);
 
 struct MetallicDiagnosis {
-  // This is the square root of the remaining weighted squared error, and 0 for an exact match. Pictures under
-  // natural light differ by about 0.42 times this value, as root mean square of display values.
+  // This is the square root of the weighted squared error that remains, and 0 for an exact match. Pictures
+  // under natural light differ by about 0.42 times this value (root mean square of display values).
   float residual = 0.0f;
   // This is the range of metallic values, as a fraction of [0, 1], whose squared error (with the best base
   // color for each) is within (1/255)^2 of the least one. If it is above 0.2, metallic is undetermined, which
   // does not change the picture.
   float metallic_uncertainty = 0.0f;
-  // This is true if a parameter was outside [0, 1], or a base color by more than half a step of 8 bits.
+  // This is true if a parameter was outside [0, 1], or if a base color was outside by more than half a step
+  // of 8 bits.
   bool is_clamped = false;
 };
 
-// Diagnoses `result`, which any method may have made from `material`. Weights and errors are as in the
-// projection without its prior. NaN in the texel gives {NaN, NaN, true}. Throws the errors of
+// Diagnoses `result`, which may come from any method, as a conversion of `material`. Weights and errors are
+// as in the projection without its prior. NaN in the texel gives {NaN, NaN, true}. Throws the errors of
 // require_valid().
 MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,
                            const MetallicMaterial& result);

@@ -12,7 +12,7 @@ struct LocalGeometry {
   double cos_light;       // normal to light, > 0
   double cos_view;        // normal to camera, > 0
   double cos_half;        // normal to the normalised half vector
-  double cos_light_half;  // light to half vector, which is also view to half vector
+  double cos_light_half;  // between light and half vector; the view has the same cosine
   double half_length_2;   // |light + view|^2, not normalised
   double cos_mirror;      // mirrored light to view
 };
@@ -38,7 +38,9 @@ enum class Brdf {
   kAs,
   kBlinn,  // N.H, normalised to (n + 8) / (8 pi), times the cosine (Akenine-Moller et al. 2008, section 7.6)
   kPlainPhong,  // R.V, neither normalised nor times the cosine (Phong 1975)
-  kPlainBlinn,  // N.H, the same (Blinn 1977; OpenGL 1.0, section 2.13; MTL, illum 2)
+  // The lobe is a power of N.H, neither normalised nor times the cosine (Blinn 1977; OpenGL 1.0, section
+  // 2.13; MTL, illum 2).
+  kPlainBlinn,
 };
 enum class Fresnel { kNone, kSchlick };
 

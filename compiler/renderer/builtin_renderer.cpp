@@ -19,7 +19,7 @@
 namespace remap {
 namespace {
 
-// A Reflectance is the meaning of the parameters other than width and diffuse for the lobe.
+// A Reflectance decides what the parameters other than width and diffuse mean for the lobe.
 enum class Reflectance {
   kScale,         // `specular`, 0 to 1
   kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved
@@ -85,7 +85,8 @@ constexpr std::array kModels = {
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
-// This is a dielectric's F0 at `specular` 1 (Burley 2012). 0.5 means 4 %, index 1.5; 0.375 the paper's 3 %.
+// This is the F0 of a dielectric whose `specular` is 1 (Burley 2012). At 0.5, F0 is 4 % (index 1.5), and at
+// 0.375 it is 3 %, as in the paper.
 constexpr double kDielectricF0 = 0.08;
 
 std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
@@ -184,7 +185,8 @@ class BuiltinRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
  private:
-  // Returns the directions. They depend only on the scene, and a sweep uses few scenes.
+  // Returns the directions. They are kept, because they depend only on the scene, and a sweep uses few
+  // scenes.
   std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
 
   mutable std::mutex mutex_;
@@ -217,7 +219,7 @@ struct LobeChannel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
   double diffuse = 0.0;
-  double metallic = 0.0, level = 0.0;  // of kMetallic; its base color is in `specular`
+  double metallic = 0.0, level = 0.0;  // for kMetallic, whose base color is in `specular`
 };
 
 // Converts base color, metallic and specular level to diffuse and F0 (Sztrajman et al. 2019, equation 2).

@@ -33,13 +33,14 @@ int mirrored(int position, int count) {
   return within < count ? within : period - 1 - within;
 }
 
-// Local means of these values are needed: both pictures, their squares and their product.
+// Local means of these values are needed: both pictures, their squares, and their product.
 enum Moment { kMeanA, kMeanB, kSquareA, kSquareB, kProduct, kMomentCount };
 using Moments = std::array<double, kMomentCount>;
 
 Moments moments_of(double a, double b) { return {a, b, a * a, b * b, a * b}; }
 
-// Convolves `lines` lines of `count` pixels. Pixels are `step` apart, and lines `line_step`.
+// Convolves `lines` lines of `count` pixels. The distance of pixels in memory is `step`, the distance of
+// lines is `line_step`.
 std::vector<Moments> smoothed(const std::vector<Moments>& values, const Kernel& kernel, int count,
                               std::size_t step, int lines, std::size_t line_step) {
   std::vector<Moments> result(values.size());

@@ -1,5 +1,5 @@
 // This file is the interface of a renderer: a black box with models, parameters and scenes that returns
-// linear images. The built-in renderer and workers implement it. A sweep uses nothing else of them.
+// linear images. The built-in renderer and workers implement it. A sweep needs nothing else from a renderer.
 #pragma once
 
 #include <array>
@@ -36,13 +36,13 @@ struct ParameterDescription {
 };
 
 struct ModelDescription {
-  std::string name;  // name as `renderer/brdf`
+  std::string name;  // such as `mitsuba3/ggx`
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // the picture depends on the seed
-  bool is_external = false;  // rendered by another program: pictures are expensive, claims are checked
-  double precision = 0.0;    // relative error of a pixel if larger than a float's, otherwise 0
+  bool is_external = false;  // another program renders it: pictures are expensive, and its claims are checked
+  double precision = 0.0;    // relative error of a pixel; 0 if it is no larger than the error of a float
 
   bool has(ParameterRole role) const;
   // Returns the parameter. Throws kUsage if the model has no parameter of that role.

@@ -9,8 +9,8 @@
 namespace remap {
 namespace {
 
-// Sphere tracing counts as a hit at this distance and as a miss after this many steps; rays that graze the
-// torus take the most steps.
+// Sphere tracing stops with a hit at this distance from the surface, and with a miss after this many steps.
+// Rays that graze the torus need the most steps.
 constexpr double kHitDistance = 1e-10;
 constexpr int kMostSteps = 500;
 // Shadow rays start this far above the surface, in sphere radii, so that they do not hit their own point.

@@ -60,7 +60,7 @@ inline std::string shape_name(Shape shape) { return std::string(name_of(kShapes,
 
 // The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
 // so that the hole and both flanks are visible.
-inline constexpr double kTorusRadius = 0.68;  // of the circle in the middle of the tube
+inline constexpr double kTorusRadius = 0.68;  // radius of the circle in the middle of the tube
 inline constexpr double kTubeRadius = 0.3;
 inline constexpr double kTorusTilt = 40.0;  // degrees from +z to +y
 
@@ -73,8 +73,8 @@ struct SurfaceHit {
 // if it misses.
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit);
 
-// Returns true if the shape casts its own shadow on the point, for a light at `light`. Always false for the
-// sphere: its own shadow is where the light is below the horizon, which this function does not test.
+// Returns true if the shape casts its own shadow on the point, for a light at `light`. It is always false for
+// the sphere. There, the shadow is where the light is below the horizon, which this function does not test.
 bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
 
 // Returns the indices, row by row, of the pixels whose centres show the shape.

@@ -13,7 +13,7 @@ namespace remap {
 struct Noise {
   double level = 0.0;    // RMS difference from the mean over seeds, relative to the RMS of the picture
   double largest = 0.0;  // largest difference of one pixel, relative to the brightest pixel
-  int pictures = 1;      // count that reduces the level to kSteadyNoise
+  int pictures = 1;      // number of pictures that reduces the level to kSteadyNoise
 };
 
 // A match sums over thousands of pixels, so this level changes it by about 1e-4.
@@ -22,11 +22,13 @@ inline constexpr double kSteadyNoise = 0.01;
 inline constexpr int kMostSeeds = 64;
 
 // A SteadyRenderer renders like `inner`, but averages the pictures of some models over as many seeds as their
-// noise requires. The noise is measured, not taken from descriptions. Other models are passed through.
+// noise requires. It measures the noise, because descriptions may be wrong. Pictures of other models are
+// returned unchanged.
 class SteadyRenderer final : public Renderer {
  public:
-  // Measures the noise of the external ones of `models`, under `light`: two pictures of 128^2 at two widths
-  // each. Throws kInput if more than kMostSeeds pictures would be needed, and kUsage for unknown models.
+  // Measures the noise of the external models among `models` under `light`, by two pictures of 128^2 at two
+  // widths each. Throws kInput if more than kMostSeeds pictures would be needed, and kUsage for unknown
+  // models.
   SteadyRenderer(const Renderer& inner, const std::vector<std::string>& models, const Light& light);
 
   // Returns the noise of a model that was measured.
@@ -36,7 +38,7 @@ class SteadyRenderer final : public Renderer {
   std::string version() const override { return inner_.version(); }
   std::string version_of(const std::string& model) const override { return inner_.version_of(model); }
   std::vector<ModelDescription> models() const override { return inner_.models(); }
-  // Returns the description. Its precision includes the remaining noise.
+  // Returns the description. Its precision includes the noise that remains after averaging.
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
 

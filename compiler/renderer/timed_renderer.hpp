@@ -7,7 +7,7 @@
 
 namespace remap {
 
-// A TimedRenderer renders like `inner`. Its seconds are the waiting time of callers, summed over threads.
+// A TimedRenderer renders like `inner`. Its seconds are the time that callers waited, summed over threads.
 class TimedRenderer final : public Renderer {
  public:
   explicit TimedRenderer(const Renderer& inner) : inner_(inner) {}

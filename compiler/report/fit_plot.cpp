@@ -184,7 +184,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // the first one; models, table and domain are the same for all
+  const Fit& fit_;  // first of the fits, which all have the same models, table and domain
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel
@@ -197,7 +197,7 @@ bool is_png(const std::filesystem::path& path) { return path.extension() == ".pn
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg" && !is_png(path))
-    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg or .png");
+    throw Error(ErrorKind::kUsage, "--plot " + path.string() + ": the file name must end with .svg or .png");
   require_gnuplot();
   create_parent(path);
 }

@@ -22,8 +22,9 @@ int run(const std::string& argument, const std::string& output, const std::strin
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status)) return -1;
   if (WEXITSTATUS(status) == kNotFound)
-    throw Error(ErrorKind::kOutput, "plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
-                                        " (install gnuplot, on Debian the package gnuplot-nox)");
+    throw Error(ErrorKind::kOutput,
+                "--plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
+                    " (install gnuplot, on Debian the package gnuplot-nox)");
   return WEXITSTATUS(status);
 }
 
@@ -45,7 +46,7 @@ void require_gnuplot() {
   const ScratchFolder folder("remapc-plot");
   const int code = run("--version", folder.file("output"), folder.file("complaints"));
   if (code != 0)
-    throw Error(ErrorKind::kOutput, "plot: gnuplot --version failed (" + std::to_string(code) +
+    throw Error(ErrorKind::kOutput, "--plot: gnuplot --version failed (" + std::to_string(code) +
                                         ", install the package gnuplot-nox)");
 }
 
@@ -71,12 +72,12 @@ void write_drawing(const std::filesystem::path& path, const std::string& script)
   // Messages with exit code 0 are warnings.
   if (code != 0)
     throw Error(ErrorKind::kOutput,
-                "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
+                "--plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
   const std::string picture = read_file(folder.file("output"));
   // gnuplot does not detect that a disk is full.
   if (picture.find("</svg>") == std::string::npos && picture.find("IEND") == std::string::npos)
     throw Error(ErrorKind::kOutput,
-                "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
+                "--plot: the output of gnuplot is incomplete (check the free space for temporary files)");
   write_file(path, picture);
 }
 

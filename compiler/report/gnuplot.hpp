@@ -18,8 +18,8 @@ inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00",
 // a light grid.
 std::string plot_style(int width, int height, bool is_png = false);
 
-// Returns `text` as a text of a script, in quotes that give no character a meaning for gnuplot. In double
-// quotes gnuplot would run commands between backquotes.
+// Quotes `text` for a script so that no character has a special meaning for gnuplot. In double quotes gnuplot
+// would run commands between backquotes.
 std::string gnuplot_text(const std::string& text);
 
 // Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if

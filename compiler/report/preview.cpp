@@ -26,7 +26,7 @@ constexpr std::size_t kColumns = 3;  // source, copied, converted
 // An End is one side of the fit, ready to be rendered.
 struct End {
   ModelDescription model;
-  SpecularResponse response;  // between the fit's specular and the model's own
+  SpecularResponse response;  // converts between the fit's specular and the model's own parameter
   double exposure = 1.0;
 };
 
@@ -82,8 +82,8 @@ std::size_t inner_pixel(std::size_t pixel, std::size_t width) {
   return inner(pixel / width) * width + inner(pixel % width);
 }
 
-// Returns a picture. Channel c comes from the material `first + c`, or from `first` if the specular is grey.
-// A pixel of the rim whose center misses the sphere looks like its inner neighbour.
+// Returns a picture whose channel c comes from the material `first + c`, or from `first` if the specular is
+// grey. A pixel of the rim whose center misses the sphere looks like its inner neighbour.
 CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first, std::size_t material_count,
                                int samples) {
   const auto width = static_cast<std::size_t>(pictures.resolution());
@@ -298,7 +298,7 @@ class SheetFiller {
   Preview result() { return std::move(preview_); }
 
  private:
-  // Reports progress. `share` belongs to the row in work.
+  // Reports progress. `share` is the finished fraction of the current row.
   void tell(double share) const {
     const double finished = static_cast<double>(preview_.figures.size()) + share;
     if (options_.progress) options_.progress(finished / static_cast<double>(rows_));

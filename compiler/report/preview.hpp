@@ -37,8 +37,9 @@ struct PreviewOptions {
                                  // half of the domain
   double diffuse = 0.0;          // reflectance of a Lambertian lobe that all pictures have, 0 to 1
   int resolution = 160;          // width and height of each picture, pixels
-  int samples_per_axis = 2;      // N x N samples in each pixel; under an environment of its coverage only
-  int directions = 64;           // samples of an environment's light for each pixel
+  // N x N samples in each pixel; under an environment, they only find how much of the pixel the sphere covers
+  int samples_per_axis = 2;
+  int directions = 64;  // samples of an environment's light for each pixel
   std::function<void(double share)>
       progress;  // receives the finished fraction, 0 to 1; any thread; may throw
 };
@@ -54,15 +55,15 @@ struct PreviewSimilarity {
 struct PreviewFigure {
   std::string light;
   Shape shape = Shape::kSphere;
-  double alpha = 0.0;                   // of the source
-  double target_alpha = 0.0;            // canonical value
+  double alpha = 0.0;                   // alpha of the source
+  double target_alpha = 0.0;            // canonical
   std::vector<double> target_specular;  // in the fit's unit
-  bool in_domain = true;                // of the fit
+  bool in_domain = true;                // whether the fit covers the source material
   PreviewSimilarity copied, converted;
 };
 
 struct Preview {
-  std::vector<double> specular;        // of the source, as rendered
+  std::vector<double> specular;        // source specular that was rendered
   std::vector<PreviewFigure> figures;  // sorted by light, then shape, then alpha
   Image sheet;  // a row for each figure; columns: source, numbers copied, numbers converted; a margin of a
                 // twentieth of the resolution around each picture

@@ -27,7 +27,7 @@ constexpr std::array<DisplayColor, 7> kStrokeColors = {{{0.84f, 0.37f, 0.00f},
                                                         {0.90f, 0.62f, 0.00f}}};
 constexpr float kDimmed = 0.55f;
 
-constexpr int kMostSamples = 3;  // along each side of a pixel
+constexpr int kMostSamples = 3;  // samples along each side of a pixel
 
 std::size_t texel_at(int sample, int sample_count, std::size_t texel_count) {
   const double place = (static_cast<double>(sample) + 0.5) / static_cast<double>(sample_count);

@@ -17,8 +17,8 @@ namespace remap {
 // A PictureGrid holds the texels of a map that a picture shows: `samples` x `samples` per pixel. Texels are
 // shaded before they are averaged.
 struct PictureGrid {
-  int width = 0, height = 0;  // of the picture
-  int samples = 1;            // along each side of a pixel
+  int width = 0, height = 0;  // width and height of the picture
+  int samples = 1;            // number of samples along each side of a pixel
   std::vector<std::uint32_t>
       texels;  // indices into the map, row-major, (width * samples) x (height * samples)
 
@@ -26,7 +26,7 @@ struct PictureGrid {
 };
 
 // Returns the grid of a picture whose longer side is `side` pixels, for a map of `width` x `height` texels
-// (both above 0). Texels of small maps are repeated; a pixel of a large map shows at most nine texels.
+// (both above 0). Texels of small maps are repeated. A pixel of a large map shows at most nine texels.
 PictureGrid picture_grid(std::size_t width, std::size_t height, int side);
 
 std::vector<WarpTexel> samples_of(const PictureGrid& grid, const std::vector<WarpTexel>& texels);
@@ -36,7 +36,7 @@ using DisplayColor = std::array<float, 3>;  // 0 to 1, encoded for a display
 // Returns display values. `samples` are the texels of `grid` (samples_of()) or their conversion. The map is
 // shown on a cushion from above, whose normals lean outwards by up to 35 degrees at the ends of the longer
 // side. A key light from the upper left and a weaker light from the lower right produce highlights as wide as
-// the material's lobe; uniform surroundings give metals their color. Texels that are not finite are black.
+// the material's lobe. Uniform surroundings give metals their color. Texels that are not finite are black.
 Image shaded_map(const PictureGrid& grid, const std::vector<WarpTexel>& samples, const BrdfModel& model);
 
 // Returns the color of a texel at the center of the cushion, for points in plots.

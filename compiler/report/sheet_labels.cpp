@@ -11,10 +11,10 @@
 namespace remap {
 namespace {
 
-// These are in dots of the font: the distance of lines, and the room on each side of a text.
+// Both are in dots of the font: the distance between lines, and the margin on each side of a text.
 constexpr int kLineHeight = 11, kTextMargin = 5;
-constexpr int kCellOfDots = 128;  // this many dots go into the side of a cell
-constexpr int kRowDots = 170;     // limit for the label of a row
+constexpr int kCellOfDots = 128;  // dots along the side of a cell
+constexpr int kRowDots = 170;     // longest label of a row, in dots
 constexpr int kMostLines = 9;
 constexpr float kInk = 0.9f;
 
@@ -59,7 +59,7 @@ std::vector<TextLines> shown_labels(const std::vector<std::string>& labels, int 
   return shown;
 }
 
-// Draws a line with its upper left corner at x, y (pixels).
+// Draws a line with its upper left corner at x, y (in pixels).
 void draw_line(std::string line, int x, int y, int dot, Image* picture) {
   struct Corner {
     float x = 0.0f, y = 0.0f, z = 0.0f;

@@ -23,7 +23,7 @@ constexpr DisplayColor kGrey = {0.72f, 0.72f, 0.72f};
 // A PlottedPoints holds points of one kind. Later points cover earlier ones.
 struct PlottedPoints {
   Points positions;                  // the first two coordinates are drawn; rows with NaN are skipped
-  std::vector<DisplayColor> colors;  // one per point, or one for all
+  std::vector<DisplayColor> colors;  // one color per point, or one color for all points
   double radius = 1.0;               // in pixels
 };
 
@@ -74,7 +74,7 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
       const std::array<double, 2> place = place_of(layer.positions, i);
       for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], place[k]);  // NaN changes neither
+        low[k] = std::min(low[k], place[k]);  // comparisons with NaN change neither
         high[k] = std::max(high[k], place[k]);
       }
     }
@@ -267,7 +267,7 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
 
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html")
-    throw Error(ErrorKind::kUsage, "--report: " + path.string() + ": the file name must end with .html");
+    throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,

@@ -17,10 +17,10 @@ namespace remap {
 struct WarpPictures {
   Image source, target, result;          // shaded by shaded_map()
   Image source_strokes, target_strokes;  // the dimmed maps with the strokes in their colors
-  // These show the first two coordinates. Points have the colors of texels; points of strokes are larger and
-  // in the colors of the strokes.
+  // These show the first two coordinates. Points have the colors of texels. Points of strokes are larger and
+  // have the colors of the strokes.
   Image source_space, target_space;
-  Image before, after;  // the source's points, or their images, over the template's (grey)
+  Image before, after;  // the source's points before and after the warp, over the template's points (grey)
 };
 
 // Draws the pictures. The result comes from the compiled converter. Draws at most 16384 points of each

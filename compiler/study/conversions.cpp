@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// Parameters holds the target parameters for each alpha of the options.
+// Parameters holds the target's parameters at each alpha of the options.
 using Parameters = std::vector<SamplePoint>;
 
 Parameters copied(const EnvironmentsOptions& options) {
@@ -65,8 +65,8 @@ constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 // Pictures holds pictures of one material under each environment.
 using Pictures = std::vector<std::vector<float>>;
 
-// Returns the mean RMSE of a target whose pictures are dark + specular * (bright - dark). `source` has
-// display values.
+// Returns the mean RMSE of a target with the pictures dark + specular * (bright - dark). `source` has display
+// values.
 double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& bright, double specular) {
   double sum = 0.0;
   std::vector<float> shown;
@@ -81,13 +81,13 @@ double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& b
   return sum / static_cast<double>(source.size());
 }
 
-// Returns the minimum's position of the parabola through values at -1, 0 and 1, clamped to [-1, 1].
+// Returns where the parabola through values at -1, 0 and 1 has its minimum, clamped to [-1, 1].
 double vertex(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
 }
 
-// Compares the source, which is `first` of the rendered materials, with the target at the widths after it.
+// Compares the source, material `first`, with the target's materials that follow it, at several widths.
 Conversion best_of(const SpherePictures& pictures, std::span<const SphereMaterial> materials,
                    std::size_t first, std::size_t environment_count, const Conversion& start) {
   const auto pictures_of = [&](std::size_t material) {
@@ -97,7 +97,7 @@ Conversion best_of(const SpherePictures& pictures, std::span<const SphereMateria
   };
   Pictures source = pictures_of(first);
   for (std::vector<float>& picture : source) picture = display_values(picture);
-  std::array<std::pair<double, double>, kWidths> optima;  // specular and its RMSE
+  std::array<std::pair<double, double>, kWidths> optima;  // the best specular of each width, and its RMSE
   for (std::size_t i = 0; i < optima.size(); ++i) {
     const Pictures dark = pictures_of(first + 1 + 2 * i), bright = pictures_of(first + 2 + 2 * i);
     // The error has one minimum over specular, because brightness increases with specular.

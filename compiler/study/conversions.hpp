@@ -25,7 +25,7 @@ enum class Method {
   kPaper,     // match by the objective `paper`
   kNatural1,  // match by the objective `natural-1`
   kNatural2,  // match by the objective `natural-2`
-  kShipped,   // per texel by a fit (lower/interpreter.hpp)
+  kShipped,   // converted by a fit (lower/interpreter.hpp)
   kBest,      // least mean RMSE over the given environments; no conversion can be better
 };
 std::string method_name(Method method);
@@ -33,21 +33,21 @@ std::string method_name(Method method);
 // An EnvironmentsOptions holds the options. `progress` is called progress_steps() times.
 struct EnvironmentsOptions : SphereSampling {
   std::vector<StudyPair> pairs;           // models of the built-in renderer
-  std::vector<double> alphas;             // of the source
-  double specular = 0.5;                  // of the source, linear, above 0 to 1
-  double diffuse = 0.0;                   // of source and target, linear, 0 to 1
+  std::vector<double> alphas;             // alphas of the source
+  double specular = 0.5;                  // specular of the source, linear, above 0 to 1
+  double diffuse = 0.0;                   // diffuse of both models, linear, 0 to 1
   std::vector<Environment> environments;  // with different names and equal mean luminance
   std::vector<Fit> fits;                  // fits for kShipped
   int match_resolution = 512;             // width and height of the pictures of the matches
-  bool least_error = false;               // compare kBest, too
-  std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
+  bool least_error = false;               // whether to compare kBest, too
+  std::optional<double> sheet_alpha;      // an alpha in `alphas`, for which contact sheets are drawn
 };
 
 // A Conversion holds the target parameters for one source material.
 struct Conversion {
   std::size_t pair = 0;  // index into EnvironmentsOptions::pairs
   Method method = Method::kCopy;
-  double alpha = 0.0;  // of the source
+  double alpha = 0.0;  // alpha of the source
   double target_alpha = 0.0, target_specular = 0.0;
 };
 
@@ -59,8 +59,8 @@ std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
 inline constexpr int kLeastErrorResolution = 48;
 
 // Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one
-// source alpha. Searches for the best specular at each of eleven alphas around the start and interpolates by
-// a parabola through the best three. If the best alpha is within a factor of 1.5 of the start, the RMSE is
+// source alpha. It searches for the best specular at each of eleven alphas around the start, and interpolates
+// by a parabola through the best three. If the best alpha is within a factor of 1.5 of the start, the RMSE is
 // accurate to about 1 %.
 std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                                          std::span<const Conversion> starts);

@@ -42,8 +42,8 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// Returns the mean square sampling error of the difference of two pictures. The estimate uses the differences
-// that each half of the light directions gives: the error of their mean is half of their difference.
+// Returns the mean square sampling error of the difference of two pictures. Each half of the light directions
+// gives one such difference. The error of their mean is half of the difference between the halves.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
@@ -57,7 +57,7 @@ double squared_noise(const LitPicture& source, const LitPicture& target) {
 // Renders all materials of one alpha together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
-  std::vector<SphereMaterial> materials;  // each material once
+  std::vector<SphereMaterial> materials;  // holds each material once
   const auto place_of = [&](const SphereMaterial& material) {
     const auto found = std::ranges::find(materials, material);
     const auto place = static_cast<std::size_t>(found - materials.begin());

@@ -20,16 +20,16 @@ std::size_t progress_steps(const EnvironmentsOptions& options);
 struct EnvironmentComparison {
   Conversion conversion;
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
-  double rmse = 0.0;            // of display values over all channels, percent of the display range
-  double ssim = 0.0;            // of luma; 1 for equal pictures
-  double energy = 0.0;          // mean linear luminance of the target over the source's, minus 1
-  double squared_noise = 0.0;   // mean square sampling error of the difference, display values
+  double rmse = 0.0;            // over all channels, percent of the display range
+  double ssim = 0.0;            // for luma; 1 for equal pictures
+  double energy = 0.0;          // mean linear luminance, target / source - 1
+  double squared_noise = 0.0;   // mean square sampling error of the difference, in display values
 };
 
 struct EnvironmentsResult {
   std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
   // If `sheet_alpha` is set, these are labelled sheets, one per environment. A row shows a pair: the source,
-  // then the result of each method. It is dark if a method does not apply to a pair.
+  // then the result of each method. The place of a method that does not apply to the pair is dark.
   std::vector<Image> sheets;
 };
 
@@ -38,8 +38,8 @@ struct EnvironmentsResult {
 // kNumeric if a fit cannot be lowered, and kInterrupted.
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
-// Returns a row for each comparison. The comments are the settings and the sampling noise: the RMS error of
-// the difference of two compared pictures, which adds to an RMSE in squares.
+// Returns a row for each comparison. The comments are the settings and the sampling noise, which is the RMS
+// error of the difference of two compared pictures. Its square adds to the square of an RMSE.
 std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
 }  // namespace remap

@@ -5,8 +5,9 @@
 
 namespace remap {
 
-// Searches [low, high] by golden sections for the minimum of `f`, which must have only one there. Each of
-// `steps` evaluates `f` once and shortens the interval to 0.618. Returns the best point and value.
+// Searches [low, high] by golden sections for the minimum of `f`, which must have only one minimum there.
+// Each of `steps` evaluates `f` once and shortens the interval to 0.618. Returns the best point and its
+// value.
 template <typename Function>
 std::pair<double, double> golden_section(double low, double high, int steps, const Function& f) {
   constexpr double kGolden = 0.6180339887498949;

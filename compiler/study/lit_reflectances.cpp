@@ -114,7 +114,7 @@ class MetallicSearch {
     return square;
   }
 
-  // Returns the least mean RMSE at one metallic, and sets `best` if it is the least so far. Each step of
+  // Returns the least mean RMSE at one metallic, and sets `best` if no earlier call found less. Each step of
   // Newton's method weights a light by the inverse of its RMSE, because the objective is a mean of roots.
   double error_at(double metallic, const Rgb& start, MetallicSurface* best) {
     Rgb albedo = start;

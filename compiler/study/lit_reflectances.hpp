@@ -28,10 +28,10 @@ struct BasisPictures {
 // with a light at the camera (headlight).
 class LitReflectances {
  public:
-  // `alphas` are above 0. Light indices are as in `environments` (of one size, as RadiancePyramid requires).
-  // The last index is the headlight, which gives the closest point of a white diffuse sphere radiance 1.
-  // Throws the errors of render_spheres. Calls `sampling.progress` `sampling.resolution` times for each
-  // alpha.
+  // `alphas` are above 0. Light indices are as in `environments`, whose maps have one size, as
+  // RadiancePyramid requires. The last index is the headlight, which gives the closest point of a white
+  // diffuse sphere radiance 1. Throws the errors of render_spheres. Calls `sampling.progress`
+  // `sampling.resolution` times for each alpha.
   LitReflectances(std::span<const Environment> environments, std::span<const double> alphas,
                   const SphereSampling& sampling);
 
@@ -70,9 +70,9 @@ struct MetallicSurface {
 Reflectances reflectances_of(const MetallicSurface& surface, const MetallicReflection& reflection);
 
 // Returns the surface of least mean RMSE of display values over the environments of `lit` at one of its
-// alphas. Searches metallic on a grid of 33 values and by a golden section around the best, and base color by
-// Newton's method. Compares a quarter of the pixels, so that the RMSE may exceed the least by a few
-// thousandths of it.
+// alphas. It searches metallic on a grid of 33 values and by a golden section around the best value, and base
+// color by Newton's method. It compares a quarter of the pixels, so its RMSE may exceed the least RMSE by a
+// few thousandths of it.
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection);
 

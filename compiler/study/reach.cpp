@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kAlphaRatio = 1.01;  // ratio of neighbouring widths of the target
 constexpr std::size_t kStride = 6;    // step between the widths that are examined first
-constexpr double kNarrowest = 0.25;   // width of the target, relative to the source's least
+constexpr double kNarrowest = 0.25;   // least width of the target, relative to the source's least
 
 // Returns value `i` of `count` over a range, including its ends.
 double part(const Range& range, std::size_t i, std::size_t count) {
@@ -35,7 +35,7 @@ Range common(const Range& a, const Range& b) { return {std::max(a.min, b.min), s
 Objective objective_of(const Fit& fit) {
   const auto found = fit.table.comments.find("objective");
   if (found == fit.table.comments.end())
-    throw input_error(fit.id + ": its table does not name an objective (use the fit of a sweep)");
+    throw input_error(fit.id + ": its table does not state an objective (use the fit of a sweep)");
   return recorded_objective(found->second);
 }
 
@@ -76,11 +76,12 @@ class TargetWidths {
   const PictureTaker& taker_;
   ProbedModel target_;
   std::vector<double> alphas_;
-  mutable std::vector<std::vector<std::vector<float>>> pictures_;  // pictures of each width
+  // pictures of each width, empty until they are rendered
+  mutable std::vector<std::vector<std::vector<float>>> pictures_;
   mutable std::deque<std::once_flag> are_rendered_;
 };
 
-// A Comparison is the difference of a source picture from pictures of a target whose specular is free.
+// A Comparison compares a source picture with pictures of a target whose specular is free.
 class Comparison {
  public:
   Comparison(const std::vector<float>& source, std::vector<float> weights, double error_factor)
@@ -123,15 +124,16 @@ class Comparison {
   double power_, error_factor_;
 };
 
-// Returns the least value of the parabola through three errors at equal steps, the middle one least. It uses
-// squares, because losses are parabolas in squares.
+// Returns the least value of the parabola through three errors at equal steps, of which the middle one is the
+// least. It uses squares, because losses are parabolas in squares.
 double least_between(double before, double middle, double after) {
   const double b = before * before, m = middle * middle, a = after * after;
   const double bend = b - 2.0 * m + a;
   return bend > 0.0 ? std::sqrt(std::max(0.0, m - 0.125 * (a - b) * (a - b) / bend)) : middle;
 }
 
-// Examines every sixth width, then all around the widths that are better than their neighbours.
+// Examines every sixth width. Between its neighbours, it then examines all widths around each that is not
+// worse than both.
 void find_least(const Comparison& comparison, const TargetWidths& target, ReachedMaterial* material) {
   const std::size_t count = target.size();
   const SpecularFamily family = target.target().family().value();

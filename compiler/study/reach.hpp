@@ -1,5 +1,5 @@
-// This file is the reach study: how much closer to the source's picture the target could come than a
-// converter brings it, over the whole range of both parameters.
+// This file is the reach study. It measures how much closer to the source's picture the target could come
+// than a converter brings it, over the whole range of both parameters.
 #pragma once
 
 #include <atomic>
@@ -13,10 +13,11 @@
 namespace remap {
 
 struct ReachOptions {
-  std::vector<Fit> fits;           // between models that the renderer has
-  std::vector<Range> speculars;    // of the sources, canonical, one range per fit; empty: their whole ranges
-  std::size_t materials = 32;      // number per parameter; their product is compared
-  Range alphas{0.05, 1.0};         // of the source; narrower highlights need more pixels
+  std::vector<Fit> fits;  // between models that the renderer has
+  // canonical ranges of the sources' specular, one per fit; empty: whole ranges
+  std::vector<Range> speculars;
+  std::size_t materials = 32;      // number of values of each parameter; all combinations are compared
+  Range alphas{0.05, 1.0};         // range of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called progress_steps() times, from any thread
@@ -28,10 +29,10 @@ std::size_t progress_steps(const ReachOptions& options);
 // A ReachedMaterial is one source material. Errors compare pictures, relative to the source's, as the
 // objective of the fit's table weighs them.
 struct ReachedMaterial {
-  double alpha = 0.0, specular = 0.0;                // of the source
-  double target_alpha = 0.0, target_specular = 0.0;  // found by the converter
-  double error = 0.0;                                // error of the converter
-  double least_alpha = 0.0, least_specular = 0.0;    // the best that the target can do
+  double alpha = 0.0, specular = 0.0;                // the source's parameters
+  double target_alpha = 0.0, target_specular = 0.0;  // converted parameters
+  double error = 0.0;                                // error of the converter's result
+  double least_alpha = 0.0, least_specular = 0.0;    // the target's best parameters
   double least_error = 0.0;
   double excess() const { return error - least_error; }
 };

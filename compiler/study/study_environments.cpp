@@ -11,7 +11,7 @@ namespace remap {
 namespace {
 
 struct EnvironmentsCommand {
-  std::vector<std::string> pairs;  // SOURCE:TARGET; if empty, the six of default_pairs()
+  std::vector<std::string> pairs;  // SOURCE:TARGET; if empty, the six pairs of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
   StudyOptions shared;

@@ -31,8 +31,9 @@ void add_sampling_options(Command& app, SphereSampling& sampling);
 void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, const std::string& folder_text,
                         const std::string& pictures_text = "");
 
-// Reads the environments and scales them to the same mean luminance, so that each of them counts in the means
-// and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of load_environment.
+// Reads the environments and scales them to the same mean luminance, so that each has the same weight in the
+// means and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of
+// load_environment.
 std::vector<Environment> read_environments(const StudyOptions& options);
 
 // Returns the user's folder of fits, otherwise the default. Returns an empty path if there is none.

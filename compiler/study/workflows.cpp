@@ -203,7 +203,7 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// Converts to the specular workflow by `there`, and back.
+// Converts to the specular workflow by `there`, then back by `method`.
 RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversion& there, FamilyKind kind,
                            std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -337,11 +337,11 @@ std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& l
                                                std::uint64_t seed, unsigned jobs) {
   if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
   std::vector<WorkflowMethod> methods = plain_methods(learned);
-  std::vector<WorkflowConversion> there;  // by equation (2), for each method
+  std::vector<WorkflowConversion> there;  // conversions to specular by equation (2), one for each method
   for (WorkflowMethod& method : methods) {
     WorkflowConversion& conversion = there.emplace_back(method.conversion);
     if (!std::holds_alternative<KhronosSolver>(method.conversion.formula)) continue;
-    // The solver is also tested on maps of the other convention.
+    // Importers apply the solver to plain maps, for which it is not made, so this is tested, too.
     method.name += ", plain";
     conversion.specular.diffuse = conversion.metallic.diffuse = DiffuseConvention::kPlain;
   }

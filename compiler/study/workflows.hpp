@@ -16,19 +16,19 @@ namespace remap {
 // A WorkflowMethod is a conversion with the reflectances of its result.
 struct WorkflowMethod {
   std::string name;
-  WorkflowConversion conversion;  // to metallic; both ends hold alpha
-  MetallicReflection reflection;  // of the metallic material
+  WorkflowConversion conversion;  // to metallic; source and target have alpha as width
+  MetallicReflection reflection;  // reflectances of the resulting metallic material
 };
 
 // Returns the methods for plain diffuse. In order, they are equation (3) by both means with F0 0.03 and 0.04,
-// Khronos' solver, the networks of `learned` and the projection. Khronos' solver has another convention, but
-// importers apply it to such maps. Networks of other conventions are skipped.
+// Khronos' solver, the networks of `learned` and the projection. Khronos' solver is made for the glTF
+// convention, but importers apply it to plain maps. Networks of other conventions are skipped.
 std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned);
 // Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
 // solver is made for this convention.
 std::vector<WorkflowMethod> gltf_methods();
 
-// A StudyMaterial is a material of the specular workflow; diffuse is a reflectance.
+// A StudyMaterial is a material of the specular workflow. Its diffuse is a reflectance.
 struct StudyMaterial {
   std::string name, group;
   Reflectances surface;
@@ -61,7 +61,8 @@ struct WorkflowPictures {
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<WorkflowMethod> methods;
-  std::vector<std::vector<WorkflowPictures>> pictures;  // [method][material]; lights: environments, headlight
+  // [method][material]; lights are the environments, then the headlight
+  std::vector<std::vector<WorkflowPictures>> pictures;
 };
 
 inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
@@ -73,10 +74,10 @@ struct WorkflowsResult {
   std::vector<Image> sheets;
 };
 
-// Renders every material and the result of each method. The least error is the best of a search under these
-// environments and of all methods with its F0, so that none of them has a smaller error. Throws kUsage for
-// empty lists, numbers out of range, and an environment with the name of another or of the headlight. Also
-// throws kInterrupted.
+// Renders every material and the result of each method. The least error is the best result of a search under
+// these environments and of all methods with its F0, so that no method has a smaller error. Throws kUsage for
+// empty lists, numbers out of range, and an environment with the name of another environment or of the
+// headlight. Also throws kInterrupted.
 WorkflowsResult study_workflows(const WorkflowsOptions& options);
 
 // Returns a row for each convention, material, method and light. The last light is the headlight.
@@ -88,14 +89,14 @@ std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult
 
 // A FamilyKind is the distribution of the materials and the storage of the specular maps.
 enum class FamilyKind {
-  kExact,    // base color and metallic uniform; floats
+  kExact,    // base color and metallic are uniform floats
   kStored,   // like kExact, stored with 8 bits in sRGB
   kAuthored  // like assets: base color uniform in sRGB, metallic 0 or 1 in four of five; 8 bits
 };
 inline constexpr std::size_t kFamilyKinds = 3;
 
-// A RoundTripErrors holds RMS errors of one method over one kind of materials. Base color is sRGB, all
-// channels.
+// A RoundTripErrors holds RMS errors of one method over one kind of materials. Base color is compared in
+// sRGB, over all channels.
 struct RoundTripErrors {
   std::string method;
   FamilyKind family = FamilyKind::kExact;

@@ -13,10 +13,12 @@
 namespace remap {
 namespace {
 
-// Section 7 fits a quartic, and five coefficients of k, to one value for each width.
+// Section 7 fits a quartic, and five coefficients of k. Each width gives one value, so fewer widths do not
+// suffice.
 constexpr std::size_t kFewestAlphas = 6;
 constexpr std::size_t kFewestGridRows = 12;
-// Rows of the same sample contradict each other if they differ by more, in alpha or relative in specular.
+// Rows of the same sample contradict each other if their targets differ by more than this. Alpha differs
+// absolutely, specular relatively.
 constexpr double kSameValue = 1e-6;
 // A step of the grid is a gap if it is this many times the median step.
 constexpr double kGapFactor = 3.0;
@@ -45,7 +47,8 @@ class Findings {
   void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
     all_.push_back({severity, kind, line, message});
   }
-  // Adds a sample of line `line` that line `first` has already, with the same target values or with others.
+  // Adds the sample of line `line`, which line `first` has already. `same` is true if the target values
+  // agree, too.
   void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
     const std::string repeat = sample + " also appears in line " + std::to_string(first);
     if (same)
@@ -96,7 +99,7 @@ class TableCheck : Findings {
       const struct {
         const char* name;
         double value;
-        bool open;  // 0 itself is invalid
+        bool open;  // true if 0 itself is not allowed
       } cells[] = {{"alpha1", row.alpha1, true},      {"specular1", row.specular1, false},
                    {"alpha2", row.alpha2, true},      {"specular2", row.specular2, false},
                    {"diffuse1", row.diffuse1, false}, {"diffuse2", row.diffuse2, false}};

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kShownText = 80;  // in bytes
+constexpr std::size_t kShownText = 80;  // messages show at most this many bytes of a text
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);
@@ -38,7 +38,7 @@ void require_line(const Csv& csv, std::size_t number, std::string_view line) {
   if (line.size() > kLongestCsvLine)
     csv.fail(number, 1,
              "the line has " + std::to_string(line.size()) + " bytes; at most " +
-                 std::to_string(kLongestCsvLine) + " are read");
+                 std::to_string(kLongestCsvLine) + " can be read");
 }
 
 // Throws if two columns have the same name, because they are ambiguous.
@@ -47,7 +47,7 @@ void require_header(const Csv& csv) {
   if (cells.size() > kMostCsvColumns)
     csv.fail(csv.header.number, 1,
              "the header has " + std::to_string(cells.size()) + " columns; at most " +
-                 std::to_string(kMostCsvColumns) + " are read");
+                 std::to_string(kMostCsvColumns) + " can be read");
   std::map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto [first, is_new] = places.emplace(cells[i].text, i);
@@ -67,7 +67,7 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
   }
   if (csv->lines.size() == kMostCsvRows)
     csv->fail(number, 1,
-              "the table has more than " + std::to_string(kMostCsvRows) + " rows, the most that are read");
+              "the table has more than " + std::to_string(kMostCsvRows) + " rows, which is the limit");
   std::vector<CsvCell> cells = split_csv_line(line, *delimiter);
   if (cells.size() != csv->header.cells.size())
     csv->fail(number, 1,

@@ -1,5 +1,5 @@
 // This file reads and writes the CSV tables of this project: comments, a header row and rows of as many
-// cells. A cell that was read knows its place.
+// cells. A cell that was read knows its line and column.
 #pragma once
 
 #include <concepts>
@@ -32,7 +32,7 @@ struct CsvLine {
 // These limit the tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
 // of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
-inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // in bytes
+inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // both in bytes
 
 struct Csv {
   std::string name;  // name for messages
@@ -64,8 +64,9 @@ class CsvText {
   // `header` holds the names of the columns, separated by commas.
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
-  // Adds a row of at least one cell: text (quoted if it holds a comma), or a number (the shortest text that
-  // reads back). Also accepts an optional number (none: an empty cell), or a range of these, one cell each.
+  // Adds a row of at least one cell. A cell is a text (quoted if it holds a comma) or a number (the shortest
+  // text that reads back). An optional number may be missing, which gives an empty cell. A range gives one
+  // cell for each element.
   template <typename... Cells>
   void add_row(const Cells&... cells) {
     (add(cells), ...);

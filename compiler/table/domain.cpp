@@ -11,11 +11,12 @@
 namespace remap {
 namespace {
 
-// With up to this many different alpha1, each has a column. Otherwise neighbours share one until it has
-// kRowsAColumn rows.
+// If alpha1 has at most this many different values, each value is a column. Otherwise neighbours share a
+// column until it has kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// In scattered rows, a column that ends within this fraction of the highest specular1 reaches it.
+// In scattered rows, a column is treated as complete if it ends within this fraction of the highest
+// specular1.
 constexpr double kSameReach = 0.9;
 // Widths that differ by less than this fraction, a few units of a table's last digit, are treated as one.
 constexpr double kSameWidth = 1e-9;
@@ -38,9 +39,9 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
 
 // A Column holds rows of similar width.
 struct Column {
-  double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
+  double first = INFINITY, last = -INFINITY;  // smallest and largest alpha1 of its usable rows
   double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
-  double reach = 0.0;                         // highest usable specular1 below that
+  double reach = 0.0;                         // highest usable specular1 below `cut`
   bool is_cut() const { return std::isfinite(cut); }
 };
 
@@ -66,7 +67,8 @@ std::vector<Column> columns_of(const Table& table) {
   return columns;
 }
 
-// Replaces widths that differ by rounding of the measurement by the least one, to form one column.
+// Replaces widths that differ only by rounding of the measurement by the least of them, so that they form one
+// column.
 void join_widths(std::vector<TableRow>& rows) {
   std::map<double, double> joined;
   for (const TableRow& row : rows) joined[row.alpha1] = row.alpha1;

@@ -5,9 +5,9 @@
 
 namespace remap {
 
-// Returns the box with alpha1 in a range and specular1 from 0 to a bound. In it every width has rows of an
-// answer up to the bound and no other row is clamped (covered_box.hpp chooses among such boxes). Rows of
-// other statuses are gaps and do not limit it. Throws kInput if the table has no such box.
+// Returns the box with alpha1 in a range and specular1 from 0 to a bound. In this box, every width has rows
+// of an answer up to the bound, and no other row is clamped (covered_box.hpp chooses among such boxes). Rows
+// of other statuses are gaps and do not limit the box. Throws kInput if the table has no such box.
 Domain table_domain(const Table& table);
 
 // Formats a range as `0.01 to 1`.
@@ -15,8 +15,8 @@ std::string range_text(const Range& range);
 
 // Exchanges source and target of the table's usable rows (Sztrajman et al. 2019, section 5). Comments are
 // kept, because they record how the table was made, and `roles: swapped` is added. Comments about one role
-// are removed: the comparison of spheres, whose widths are the source's, and the target's limits. Widths of
-// the target that differ by the rounding of the measurement (1e-9 of the width) become one.
+// are removed: the comparison of spheres, which lists widths of the source, and the target's limits. Widths
+// of the target that differ only by the rounding of the measurement (1e-9 of the width) become one.
 Table swapped(const Table& table);
 
 }  // namespace remap

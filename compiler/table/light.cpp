@@ -26,8 +26,8 @@ std::optional<LightRemark> light_remark(const LightMatch& match) {
                 " for it, which is right only if the lights of the renderers differ";
   if (remark.is_error)
     remark.text +=
-        " (check the diffuse of both models; --no-irradiance-matching leaves the light as it is, "
-        "--accept-light goes on)";
+        " (check the diffuse of both models; --no-irradiance-matching keeps the light unchanged, "
+        "--accept-light continues anyway)";
   return remark;
 }
 

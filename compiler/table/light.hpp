@@ -1,7 +1,7 @@
 // This file handles the light of two renderers, which a sweep makes equal before it compares their
 // highlights. It multiplies the source's pictures by the factor that makes white diffuse spheres of both look
-// the same. This is right if the lights differ. If the diffuse lobes differ (Oren-Nayar against Lambert), it
-// changes the specular of every row instead.
+// the same. This is right if only the lights differ. If the diffuse lobes differ (Oren-Nayar against
+// Lambert), it wrongly changes the specular of every row.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 namespace remap {
 
 // These comments of a table hold the factor, how much the diffuse pictures still differ after it (RMS), and
-// that a user has accepted both.
+// whether a user has accepted both.
 inline constexpr const char* kLightScaleComment = "irradiance_scale";
 inline constexpr const char* kDiffuseErrorComment = "diffuse_error";
 inline constexpr const char* kLightAcceptedComment = "light_accepted";
@@ -29,7 +29,7 @@ struct LightRemark {
   std::string text;       // `what is wrong (what to do)`, with the numbers
 };
 
-// A scale or a difference beyond this value is reported. Noise and rounding of renderers stay below.
+// A scale or difference beyond this value is reported. Noise and rounding errors of renderers are smaller.
 inline constexpr double kSaidLightChange = 0.01;
 // Beyond this value, the scale changes specular by more than a fit's errors and than most people see.
 inline constexpr double kMostLightChange = 0.05;

@@ -21,7 +21,7 @@ struct NamedRow {
 
 struct MaterialTable {
   std::string name;                                         // file name, for messages
-  Comments comments;                                        // without the two that list columns
+  Comments comments;                                        // without the two comments that list columns
   std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
   std::vector<std::string> remarks = {};  // assumptions of the parser, for the user

@@ -44,7 +44,8 @@ void require_variety(const std::vector<TableRow>& rows, const std::string& kind)
 bool alpha_needs_specular(const std::vector<TableRow>& rows) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
   for (const TableRow& row : rows) by_alpha[row.alpha1].push_back(&row);
-  // These sums cover straight lines over specular, one for each alpha1: explained variation and residuals.
+  // A straight line over specular is fitted at each alpha1. These are sums of what the lines explain, and of
+  // the squared residuals.
   double explained = 0.0, left = 0.0, degrees = 0.0, count = 0.0;
   for (const auto& [alpha, group] : by_alpha) {
     if (group.size() < 3) continue;

@@ -25,7 +25,7 @@ using FitProgress = std::function<void(double share)>;
 FitProgress part_of(const FitProgress& progress, double begin, double end);
 
 // Returns the weight of an output's error when fits are compared: 1 / value, but at most 50. Pictures show
-// errors relative to the value; below a fiftieth they show nothing.
+// errors relative to the value, but no errors of values below a fiftieth.
 double error_weight(double value);
 
 // Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with

@@ -12,7 +12,7 @@
 namespace remap {
 
 // Returns a random permutation of `count` indices that depends only on `seed`, not on the machine. The first
-// ones are held out.
+// indices are held out.
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
 
 // Returns the record of a split of `rows` rows, of which `fraction` (rounded) are held out. Throws kUsage for

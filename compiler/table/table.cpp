@@ -18,7 +18,7 @@ namespace {
 // The names are in the order of RowStatus.
 constexpr std::array<std::string_view, 7> kStatusNames = {"ok",      "clamped", "flat",   "unstable",
                                                           "clamped", "clamped", "clamped"};
-constexpr double kSameLimit = 1e-8;  // relative: tables hold ten digits
+constexpr double kSameLimit = 1e-8;  // relative difference, because tables hold ten digits
 const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", "specular2",
                                              "diffuse1", "diffuse2",  "error",  "status"};
 constexpr std::size_t kRequiredColumns = 4;

@@ -24,12 +24,12 @@ enum class RowStatus {
   kUnstable,  // searches from different starts disagree
   kWide,      // alpha2 is at its limit
   kBright,    // specular2 is at its limit
-  kCorner,    // both are
+  kCorner,    // alpha2 and specular2 are at their limits
 };
 
 std::string_view status_name(RowStatus status);
 
-// Parses the status in a cell of `line`. Throws kInput with its place for an unknown word.
+// Parses the status in a cell of `line`. For an unknown word, throws kInput with the place of the cell.
 RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell);
 
 struct TableRow {
@@ -40,8 +40,8 @@ struct TableRow {
   double error = 0.0;      // image error of the match, relative RMS; NaN if the file has none
   RowStatus status = RowStatus::kOk;
   std::size_t line = 0;   // in the file it was read from, 1-based; 0 for a new row
-  double diffuse1 = 0.0;  // source diffuse, linear; if has_diffuse
-  double diffuse2 = 0.0;  // target diffuse, linear; if has_diffuse
+  double diffuse1 = 0.0;  // source diffuse, linear; used if has_diffuse
+  double diffuse2 = 0.0;  // target diffuse, linear; used if has_diffuse
 };
 
 struct Table {
@@ -49,8 +49,8 @@ struct Table {
   Comments comments;
   ModelSide source;
   ModelSide target;
-  bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
-  bool has_error = true;     // otherwise the errors of its rows are NaN, and not written
+  bool has_diffuse = false;  // true if rows have diffuse1 and diffuse2
+  bool has_error = true;     // if false, the errors of its rows are NaN and are not written
   std::vector<TableRow> rows;
   Limits limits;                     // from the comments (find_limits)
   std::vector<std::string> remarks;  // assumptions of the parser, for the user
@@ -60,7 +60,7 @@ struct Table {
 inline constexpr const char* kAlphaLimitComment = "target_alpha_limit";
 inline constexpr const char* kSpecularLimitComment = "target_specular_limit";
 
-// Returns the status of a row that may be kClamped by the limit that it is at.
+// Returns kWide, kBright or kCorner for a row at these limits, otherwise the row's own status.
 RowStatus status_at(const TableRow& row, const Limits& limits);
 
 // Sets the limits of a table from its comments, and the statuses of its rows, if the limit of alpha is known.
@@ -78,8 +78,9 @@ inline constexpr const char* kSpheresComment = "sphere_ssim";
 
 // A ColumnMap holds the columns and models of a foreign table.
 struct ColumnMap {
-  std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same name
-  ModelSide source;                            // empty model: taken from the comments
+  // maps an own name to the name in the file; a name that is missing is the same in both
+  std::map<std::string, std::string> columns;
+  ModelSide source;  // if the model is empty, the comments of the file give it
   ModelSide target;
 };
 
@@ -89,11 +90,11 @@ struct ColumnMap {
 ColumnMap column_map(const std::string& text);
 
 // Parses CSV text: UTF-8, `#` comments, then a header row delimited by comma, tab or semicolon. The columns
-// alpha1, specular1, alpha2, specular2 are required; error, status, and diffuse1 with diffuse2 are optional;
-// others are ignored. `<side>_specular_column` names the specular of a side if its columns hold another
-// coordinate than the model's own parameter (F0 for an index), otherwise `<side>_specular` does. Throws
-// kInput with `name:line:column:` for a missing column, a bad number or status, a row of another length, and
-// text without rows.
+// alpha1, specular1, alpha2, specular2 are required. The columns error, status, and diffuse1 with diffuse2
+// are optional. Others are ignored. `<side>_specular_column` names the specular of a side if its columns hold
+// another coordinate than the model's own parameter (F0 for an index), otherwise `<side>_specular` does.
+// Throws kInput with `name:line:column:` for a missing column, a bad number or status, a row of another
+// length, and text without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 // Makes the table from CSV text that parse_csv has split.
@@ -101,7 +102,7 @@ Table table_from_csv(const Csv& csv, const ColumnMap& map);
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
-// Returns true if the row belongs to a regime. Fits use only such rows.
+// Returns true if the row's match is usable, even at a limit of the target. Fits use only such rows.
 bool has_answer(const TableRow& row);
 std::vector<TableRow> answer_rows(const Table& table);
 

@@ -56,8 +56,9 @@ Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path) 
   const std::string digest = csv.comment(kDigest);
   std::erase_if(csv.comments, [](const auto& comment) { return comment.first == kDigest; });
   if (!digest.empty() && digest != sha256(whole_text(csv, bytes)))
-    csv.remarks.push_back("warning: " + csv.name + ": one of it and " + metadata.string() +
-                          ", which tells its models, has changed since they were written");
+    csv.remarks.push_back(
+        "warning: " + csv.name + ": " + metadata.string() +
+        ", which states its models, does not belong to this table: one of them was changed");
   return csv;
 }
 

@@ -1,5 +1,6 @@
-// Commands write plain CSV, which numpy, pandas and spreadsheets read without options. FILE.json beside it
-// records how it was made (decision 052). Files with comments are read as well.
+// This file reads and writes tables. Commands write plain CSV, which numpy, pandas and spreadsheets read
+// without options. FILE.json next to it records how the table was made (decision 052). Tables with comments
+// can be read as well.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,8 @@ Comments parse_metadata(std::string_view json, const std::string& context);
 // Parses the content of the file `path` (parse_csv). A table without comments gets the comments of FILE.json.
 Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path);
 
-// Returns the table in one text, with its comments. Fits record its hash, which is the same in both forms.
+// Returns the table as one text, including its comments. Fits record the hash of this text, so both forms of
+// a table have the same hash.
 std::string whole_text(const Csv& csv, std::string_view bytes);
 
 // Throws kOutput if the table or its FILE.json exists already, unless `force`.

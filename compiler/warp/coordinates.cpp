@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
-constexpr std::size_t kSlowTexels = 4096;  // limit for features by samples
+constexpr std::size_t kSlowTexels = 4096;  // features by samples use at most this many texels
 constexpr double kFitRidge = 1e-9;         // relative to the mean square of the terms
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;
@@ -24,7 +24,7 @@ std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::Mat
   double total = 0.0;
   const auto count = static_cast<std::size_t>(columns.cols());
   for (std::size_t i = 0; i < kStressPairs; ++i) {
-    // Multiplicative hashes select pairs from the whole list.
+    // Multiplicative hashes pick pairs of texels from the whole list.
     const auto first = static_cast<Eigen::Index>(i * 2654435761u % count);
     const auto second = static_cast<Eigen::Index>((i * 2246822519u + 97u) % count);
     const Eigen::VectorXd difference = columns.col(first) - columns.col(second);
@@ -83,7 +83,7 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   if (!(space.radius > kLeastRadius * space.mean.norm()))
     throw input_error(material.name() +
                       ": all texels look the same (a warp needs a material with at least two appearances)");
-  // With fewer than three features, the other axes are 0.
+  // With fewer than three features, the axes that are missing are 0.
   const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
   space.axes = Eigen::MatrixXd::Zero(columns.rows(), 3);
   space.axes.leftCols(found) = symmetric_eigen(covariance).vectors.rightCols(found).rowwise().reverse();

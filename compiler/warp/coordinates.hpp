@@ -18,7 +18,7 @@ using Points = Eigen::MatrixXd;
 struct AppearanceSpace {
   Eigen::VectorXd mean;            // mean of the features
   Eigen::MatrixXd axes;            // features x 3, orthonormal, in order of decreasing variance
-  double radius = 0.0;             // spread: RMS distance of texels from the mean, the unit of coordinates
+  double radius = 0.0;             // RMS distance of texels from the mean, the unit of coordinates
   std::array<double, 3> stress{};  // RMS error of distances over RMS distance, in 1, 2 and 3 dimensions
 };
 

@@ -16,7 +16,7 @@ Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& left, const Eigen::Matrix
 }
 
 Eigen::MatrixXd nearest_orthogonal(const Eigen::MatrixXd& matrix) {
-  // Computes only rotations, because the preparation for other matrices is not needed.
+  // A preconditioner is not used, because only the rotations of square matrices are needed.
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
       matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();

@@ -29,7 +29,7 @@ Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<Quadratur
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 
-// Compresses both tables to the leading singular vectors of a common space.
+// Projects both tables onto the leading singular vectors of their common space.
 FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& target,
                                AppearanceDistance distance) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();
@@ -50,7 +50,7 @@ FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& t
     columns.middleCols(1 + 3 * nodes, nodes) = target_table.base;
   }
   columns = weights.asDiagonal() * columns;
-  // Only the coordinates of the columns in the left singular vectors are needed, not the vectors themselves.
+  // Only the coordinates of the columns are needed, not the left singular vectors themselves.
   const auto [values, vectors] = symmetric_eigen(columns.transpose() * columns);
   const Eigen::VectorXd strengths = values.tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
   const Eigen::MatrixXd features = strengths.asDiagonal() * vectors.rightCols(kFeatureBasis).transpose();

@@ -31,8 +31,8 @@ struct SeparableFeatures {
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
-// A SampledFeatures holds features of samples, for tables and for exact Fresnel reflectance. Samples are at
-// the directions of half_vector_quadrature() or at the radii of profiles.
+// A SampledFeatures holds features from samples of reflectance, for tables and for exact Fresnel reflectance.
+// Samples are at the directions of half_vector_quadrature() or at the radii of profiles.
 struct SampledFeatures {
   std::vector<double> radii;  // union of both materials; empty for reflectances
   Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
@@ -48,8 +48,8 @@ struct FeaturePair {
   AppearanceFeatures source, target;
 };
 
-// Uses closed forms if both materials are parametric, without exact Fresnel reflectance, and samples
-// otherwise. Throws kInput if only one of the materials has profiles. Throws kUsage for profiles with the
+// Uses closed forms if both materials are parametric and have no exact Fresnel reflectance. Otherwise it uses
+// samples. Throws kInput if only one of the materials has profiles. Throws kUsage for profiles with the
 // relative distance, which is only defined for reflectances.
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance = AppearanceDistance::kRelative);
@@ -75,7 +75,8 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
 Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material, std::uint32_t texel);
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 
-// Works like appearance_features(), by samples. `weights` are direction_weights(), unused for profiles.
+// Does the work of appearance_features() by samples. `weights` are direction_weights(), which profiles do not
+// use.
 FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& target,
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 

@@ -16,7 +16,7 @@ inline std::vector<std::byte> texels_of(ImageReader& image) {
   return texels;
 }
 
-// Returns the stored values of one channel, row-major from the top; integers are scaled to 0 to 1.
+// Returns the stored values of one channel, row-major from the top. Integers are scaled to 0 to 1.
 inline std::vector<float> channel_values(const ImageLayout& layout, std::size_t channel,
                                          const std::vector<std::byte>& texels) {
   const Channel& own = layout.channels[channel];

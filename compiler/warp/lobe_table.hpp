@@ -13,7 +13,7 @@ namespace remap {
 inline constexpr std::size_t kWidthNodes = 64;  // uniform in log(alpha) between kLeastWidth and kLargestWidth
 inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;
 
-// A WidthPosition is the position of an alpha between `node` and the next node; `fraction` is 0 to 1.
+// A WidthPosition is the position of an alpha between `node` and the next node. `fraction` is 0 to 1.
 struct WidthPosition {
   Eigen::Index node = 0;
   double fraction = 0.0;

@@ -18,7 +18,7 @@ namespace remap {
 // skipped. Reflectances and alpha are in 0 to 1 (clamped()).
 struct WarpMaterial {
   std::string name;  // name for messages
-  BrdfModel model;   // of the specular lobe; default: GGX with Schlick's Fresnel
+  BrdfModel model;   // model of the specular lobe; GGX with Schlick's Fresnel by default
   std::vector<WarpTexel> texels;
   bool is_dielectric = false;  // as in MapModel: reflectance is not linear in specular
 };
@@ -31,7 +31,7 @@ struct TabulatedMaterial {
   // at the directions of half_vector_quadrature().
   std::vector<double> radii;
   Eigen::MatrixXf samples;             // red, then green, then blue; one column per entry; finite, at least 0
-  std::vector<std::uint32_t> entries;  // of each texel, row-major; a texel without a column is skipped
+  std::vector<std::uint32_t> entries;  // entry of each texel, row-major; a texel without an entry is skipped
 };
 
 // A MaterialRef refers to a material of either kind, which must outlive it.
@@ -49,7 +49,7 @@ class MaterialRef {
   // Returns true if reflectance is linear in all parameters except alpha.
   bool is_separable() const noexcept { return parametric_ != nullptr && !parametric_->is_dielectric; }
   bool is_profiles() const noexcept { return tabulated_ != nullptr && !tabulated_->radii.empty(); }
-  // These return null for a material of the other kind.
+  // Each function returns null if the material is of the other kind.
   const WarpMaterial* parametric() const noexcept { return parametric_; }
   const TabulatedMaterial* tabulated() const noexcept { return tabulated_; }
 
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_
 // A StrokePair is a region that is marked in both materials: indices of texels.
 struct StrokePair {
   std::vector<std::uint32_t> source, target;  // `target`: in the template
-  std::string color = {};                     // `#rrggbb` if the strokes were painted in colors; for messages
+  std::string color = {};  // `#rrggbb` if the strokes were painted in colors; messages show it
 };
 // Returns `stroke 2`, or `stroke #ff0000`.
 std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stroke);

@@ -56,7 +56,7 @@ int nearest_point(const Points& points, const Eigen::RowVectorXd& position) {
 Extent extent_of(const Points& positions, Eigen::Index axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    low = std::min(low, positions(i, axis));  // NaN changes neither
+    low = std::min(low, positions(i, axis));  // comparisons with NaN change neither
     high = std::max(high, positions(i, axis));
   }
   return {low, high};
@@ -99,7 +99,7 @@ Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<st
   result.spacing = search_spacing(positions);
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
-  // With few texels in total, every occupied bin counts.
+  // If the material has few texels, bins with fewer than kLeastTexels texels are used as well.
   const bool is_sparse = *std::max_element(counts.begin(), counts.end()) < 4 * kLeastTexels;
   const int least = is_sparse ? 1 : kLeastTexels;
 

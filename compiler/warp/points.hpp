@@ -1,5 +1,5 @@
 // This file computes occupancy. It represents all texels of a material by a few hundred points, so that a
-// rare appearance counts as much as a frequent one (An et al. 2011, section 3.2).
+// rare appearance has the same weight as a frequent one (An et al. 2011, section 3.2).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Extent {
 };
 Extent extent_of(const Points& positions, Eigen::Index axis);
 
-// Returns the mean position of the finite ones of `texels`, or the origin if there are none.
+// Returns the mean position of those `texels` that are finite, or the origin if there are none.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {

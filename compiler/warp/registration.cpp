@@ -63,14 +63,14 @@ SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
   return match;
 }
 
-// A Pull is the attraction of each point: the sums of weights and of weighted targets.
+// A Pull says how strongly and where to each point is attracted: the sums of weights and of weighted targets.
 struct Pull {
   Eigen::VectorXd weight;
   Points weighted;
 };
 
-// Computes the pull. All points of strokes have the same weight. The masses are not normalised, so that
-// strokes far from their partners and points without a match have less effect.
+// Computes how points are attracted. All points of strokes have the same weight. The masses are not
+// normalised, so that strokes far from their partners and points without a match have less effect.
 Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
   const SoftMatch all = match_softly(moved, sets.target.points, sigma);
   Pull pull{all.mass, all.mass.asDiagonal() * all.target};

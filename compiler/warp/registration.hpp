@@ -31,8 +31,8 @@ AffineMap affine_from_strokes(const PointSets& sets);
 // Computes a SmoothWarp with 80 centres of width 1.2 in 25 steps with sigma from 0.4 to 0.05. Each step
 // matches all points softly, and separately the points of every stroke pair with 1.5 times the weight. Then
 // it solves one linear least squares problem with the bending prior 10 sigma^2 / 0.05 w' K w / 80. The
-// optimum is flat: half or twice any of these numbers changes the error by about one percentage point.
-// Deterministic.
+// optimum is flat: half or twice any of these numbers changes the error by about one percentage point. The
+// result is deterministic.
 SmoothWarp register_points(const PointSets& sets, const AffineMap& start);
 
 }  // namespace remap

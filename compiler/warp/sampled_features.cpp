@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kBasisTexels = 256;  // number from each material
+constexpr std::size_t kBasisTexels = 256;  // number of texels from each material
 constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue; weaker directions are noise
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLargestF0 = 0.999;
@@ -47,7 +47,7 @@ double profile_at(const std::vector<double>& radii, const float* samples, double
   return value(i - 1) + share * (value(i) - value(i - 1));
 }
 
-// Builds the features without the basis.
+// Builds the features except their basis.
 SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, AppearanceDistance distance,
                          const Eigen::VectorXd& weights) {
   SampledFeatures frame;

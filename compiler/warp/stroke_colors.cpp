@@ -16,11 +16,13 @@ namespace fs = std::filesystem;
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
 
-constexpr double kColorRadius = 40.0;         // colors within it are treated as one
-constexpr double kPairRadius = 48.0;          // colors of two images match within this distance
-constexpr double kShadeRadius = 80.0;         // for shades of the background next to strokes, from JPEG
-constexpr double kBlendRadius = 60.0;         // distance from the line between two colors to their blend
-constexpr double kMostBlends = 0.4;           // fraction of the texels; thin strokes have long edges
+constexpr double kColorRadius = 40.0;  // colors within this distance are treated as one
+constexpr double kPairRadius = 48.0;   // colors of two images match within this distance
+// JPEG compression creates shades of the background next to strokes. This is their largest distance from the
+// background color.
+constexpr double kShadeRadius = 80.0;
+constexpr double kBlendRadius = 60.0;  // greatest distance of a blend from the line between its two colors
+constexpr double kMostBlends = 0.4;    // greatest fraction of texels that blend; thin strokes have long edges
 constexpr double kLeastColorShare = 2e-5;     // least fraction of the texels for a color
 constexpr std::size_t kLeastColorTexels = 8;  // least number of texels for a color
 constexpr std::size_t kMostColors = 33;       // including the background
@@ -149,8 +151,9 @@ struct Surroundings {
   double flat = 0.0;    // texels with three or more neighbors of the same cluster
   double beside = 0.0;  // texels with another stroke within six texels
   double at_rim = 0.0;  // texels with a larger stroke within six texels
-  double close = 0.0;   // texels with a larger stroke within two texels
-  std::array<std::size_t, kNoCluster + 1> rims = {};  // number of occurrences of each cluster
+  double close = 0.0;   // for each stroke, the number of texels near which it is the largest stroke
+  // number of texels beside which this is the largest stroke
+  std::array<std::size_t, kNoCluster + 1> rims = {};
 };
 
 // Searches in eight directions, as far as blurred edges of strokes extend.
@@ -185,8 +188,9 @@ void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std
   ++found.rims[larger];
 }
 
-// Returns true if a cluster is the edge of a larger stroke: thin, or a blend with the background, along the
-// whole stroke. Also returns true for a shade of the background next to strokes, as JPEG produces it.
+// Returns true if a cluster is the edge of a larger stroke. Such a cluster is thin, or it is a blend with the
+// background along the whole stroke. Also returns true for a shade of the background next to strokes, which
+// JPEG produces.
 bool is_rim(const std::vector<ColorCount>& clusters, std::size_t index, const Surroundings& around,
             std::size_t first_stroke) {
   if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
@@ -272,7 +276,7 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
         distance(nearest.color, strokes[k].color) <= kPairRadius)
       continue;
     throw input_error(other_image.string() + ": has no stroke with color " + text_of(strokes[k].color) +
-                      " of " + image.string() + " (the nearest is " + text_of(nearest.color) +
+                      " of " + image.string() + " (the closest is " + text_of(nearest.color) +
                       "; every color must be in both images)");
   }
 }

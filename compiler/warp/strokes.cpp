@@ -62,7 +62,7 @@ std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& ma
   std::istringstream parts(box);
   for (std::string part; std::getline(parts, part, ',');) {
     const auto number = parse_number(part);
-    if (!number || !(*number >= 0.0 && *number <= 1e6)) fail();  // "nan" is a number as well
+    if (!number || !(*number >= 0.0 && *number <= 1e6)) fail();  // this also rejects "nan", which is a number
     corner.push_back(static_cast<std::size_t>(*number));
   }
   if (corner.size() != 4 || corner[0] >= corner[2] || corner[1] >= corner[3] || corner[2] > material.width ||

@@ -15,8 +15,8 @@ namespace remap {
 // and the errors of read_stroke_image() and require_background().
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material);
 
-// Parses `x0,y0,x1,y1`: texels from the first corner up to but excluding the second; rows count from the top.
-// Throws kUsage for other text and for a box that is empty or exceeds the material.
+// Parses `x0,y0,x1,y1`: texels from the first corner up to but excluding the second. Rows are counted from
+// the top. Throws kUsage for other text and for a box that is empty or exceeds the material.
 std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material);
 
 // Returns one pair for each color except the background, in the row-major order of their first texels in the

@@ -134,7 +134,7 @@ void read_brdf_list(TabulatedSet& set) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (columns.size() == kMostBrdfs)
       throw input_error(set.table.string() + ": has more than " + std::to_string(kMostBrdfs) +
-                        " BRDFs, the most that are read");
+                        " BRDFs, which is the limit (split the list)");
     if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
   }
   if (columns.empty())
@@ -175,7 +175,7 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   const double largest = largest_of(layout.channels[0].type);
   for (const float value : channel_values(layout, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
-    const bool is_entry = entry >= 0.0 && entry < entries;  // also false for NaN
+    const bool is_entry = entry >= 0.0 && entry < entries;  // false for NaN, too
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
   }
 }

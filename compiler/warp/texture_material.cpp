@@ -34,7 +34,7 @@ FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
   if (found.sets.size() != 1)
     throw input_error(
         folder.string() + ": contains " + std::to_string(found.sets.size()) +
-        " texture sets, but must contain exactly one (name the maps diffuse, specular and roughness)");
+        " texture sets, but must contain exactly one (rename the maps to diffuse, specular and roughness)");
   if (found.sets[0].state == SetState::kFaulty)
     throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
                                                     : found.sets[0].remarks[0]);
@@ -58,7 +58,8 @@ struct MaterialRequest {
   bool from_metallic = false, is_albedo = false;
 };
 
-// Requests the maps of the specular workflow, otherwise of the metallic one, otherwise the diffuse map.
+// Requests the maps of the specular workflow if they exist. Otherwise it requests the maps of the metallic
+// workflow, and otherwise the diffuse map.
 MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
   const FoundSet set = only_set(folder, albedo);
   MaterialRequest result;

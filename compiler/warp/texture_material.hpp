@@ -10,7 +10,7 @@ namespace remap {
 struct TextureMaterial {
   WarpMaterial material;  // row-major
   std::size_t width = 0, height = 0;
-  bool is_albedo = false;  // from only a diffuse map
+  bool is_albedo = false;  // true if it was read from only a diffuse map
 
   MapFrame frame() const { return {material.name, width, height}; }
 };

@@ -12,7 +12,7 @@
 namespace remap {
 namespace {
 
-// The source is only used for points. Results are texels of the template, so more of them are kept.
+// The source only gives points, but results are texels of the template. So more template texels are used.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
 // These are limits of copy_rms_error().
@@ -33,7 +33,8 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   std::vector<char> wanted(count, 0);
   const std::size_t step = (count + limit - 1) / limit;
   for (std::size_t i = 0, block = 0; i < count; i += step, ++block)
-    wanted[std::min(i + block * 61 % step, count - 1)] = 1;  // scattered, so that samples do not form columns
+    // varies the place in each step, so that samples do not form columns
+    wanted[std::min(i + block * 61 % step, count - 1)] = 1;
   for (const StrokePair& stroke : strokes)
     for (const std::uint32_t texel : stroke.*side) wanted[texel] = 1;
 

@@ -18,23 +18,24 @@ struct WarpOptions {
 
 // A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
-  int source_dimensions = 0, target_dimensions = 0;  // number that each material needs
-  int dimensions = 0;                                // number in the warp
-  double source_stress = 0.0, target_stress = 0.0;   // stress at `dimensions`
-  double coordinates_error = 0.0;                    // the larger Placement::fit_error, in radii
-  int fixed_directions = 0;  // dimensions that strokes determine; the others follow the prior
-  double fold_share = 0.0;   // fraction of source texels where the warp folds
-  double coverage = 0.0;     // fraction of the template's occupied bins that the result uses
-  // These are RMS distances in template radii, from the images of the source strokes' centres to the template
-  // strokes' centres. The first is after the warp, the second after only the affine map.
+  int source_dimensions = 0, target_dimensions = 0;  // number of dimensions that each material needs
+  int dimensions = 0;                                // number of dimensions in the warp
+  double source_stress = 0.0, target_stress = 0.0;   // stress with `dimensions` dimensions
+  double coordinates_error = 0.0;  // the larger Placement::fit_error of both materials, in radii
+  // number of dimensions that strokes determine; the prior determines the other dimensions
+  int fixed_directions = 0;
+  double fold_share = 0.0;  // fraction of source texels where the warp folds
+  double coverage = 0.0;    // fraction of the template's occupied bins that the result uses
+  // These are RMS distances in template radii between the moved centres of the source's strokes and the
+  // centres of the template's strokes. The first is after the warp, the second after only the affine map.
   double stroke_distance = 0.0;
   double stroke_contradiction = 0.0;
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance
-  std::vector<std::string> strokes;                      // their names, for messages
+  std::vector<std::string> strokes;                      // names of the strokes, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
   // A SharedStroke is the stroke that another stroke covers most, in either material.
   struct SharedStroke {
-    std::size_t stroke = 0;  // index
+    std::size_t stroke = 0;  // index of the stroke
     Overlap overlap;
     bool in_template = false;
   } shared;
@@ -66,7 +67,7 @@ struct WarpFit : AppearanceMatch {
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 
-// Returns for every source texel the template texel that is closest to its image (for `--copy` and tests).
+// Returns, for every source texel, the template texel that is closest to its image (for `--copy` and tests).
 // Texels that are not finite get kNoTexel.
 inline constexpr std::uint32_t kNoTexel = ~std::uint32_t{0};
 std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,

@@ -108,8 +108,8 @@ CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMat
 
 constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
 
-// Returns the nodes around every position and their neighbors, in increasing order. These are the nodes that
-// source texels look up, even if `positions` are only a sample of them.
+// Returns the nodes around every position and their neighbors, in increasing order. Source texels look up
+// these nodes, even if `positions` are only a sample of the texels.
 std::vector<std::uint32_t> nodes_around(const Points& positions, const ParameterTable& table) {
   const std::size_t dimension = table.low.size(), nodes = table.nodes, count = node_count(table);
   std::vector<char> is_near(count, 0);
@@ -125,7 +125,8 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Parameter
     for (std::size_t k = 0; k < dimension; ++k, run *= nodes) cell += first[k] * run;
     is_near[cell] = 1;
   }
-  // A cell is marked at its first node. Its corners and their neighbors are one step down to two steps up.
+  // A cell is marked at its first node. Its corners and their neighbors lie from one step before this node to
+  // two steps after it.
   std::size_t run = 1;
   for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
     const std::vector<char> before = is_near;
@@ -162,7 +163,7 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
 }
 
 // Finds the texel closest to the image of every node that source texels look up. The other nodes, often most
-// of the box, copy the closest such node, because the warp is undefined far from the source.
+// of the box, copy the result of the closest such node, because the warp is undefined far from the source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {
   const std::vector<std::uint32_t> near = nodes_around(positions, table);

@@ -1,5 +1,5 @@
-// Each child process has a thread that forks it, reads its output and reaps it. The kernel signals the death
-// of a parent when the thread that forked dies, so that thread must live as long as the child.
+// Each child process has a thread that forks it, reads its output and reaps it. The kernel reports the death
+// of a parent when the thread that forked dies. The thread must therefore live as long as the child.
 #include "worker/child_process.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
+constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are stored
 constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
 constexpr std::size_t kLongestLine = 16 << 20;  // far above an answer of a few kilobytes
 constexpr std::size_t kMostUnread = 64 << 20;   // bytes of lines that wait to be read
@@ -91,8 +91,8 @@ std::vector<pid_t> marked_processes(const std::string& mark) {
   return found;
 }
 
-// Kills what a process has started outside of its group (setsid), and repeats this while it starts more. Dead
-// processes and zombies have no environment.
+// Kills processes that left the group (setsid). Repeats this while they start new ones. Dead processes and
+// zombies have no environment.
 void kill_marked(const std::string& mark) {
   constexpr int kMostRounds = 100;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -165,7 +165,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
     id_ = ::fork();
     if (id_ == 0) become(parent, arguments.data(), input.read, output.write, errors.write);
     failure = id_ < 0 ? errno : 0;
-    if (id_ > 0) ::setpgid(id_, id_);  // both processes set it; the first one wins
+    if (id_ > 0) ::setpgid(id_, id_);  // both processes call this; the first call has the effect
     for (int end : {input.read, output.write, errors.write}) ::close(end);
     pipes_ = {input.write, output.read, errors.read};
   } catch (const Error&) {
@@ -199,7 +199,7 @@ void ChildProcess::watch() {
         stream.fd = -1;  // poll ignores negative descriptors
       }
     }
-    // Stop once all output before its end has been read, or a fault makes it useless.
+    // Stop after reading all output of an ended process, or if a fault makes the output useless.
     if (gone && (!read_something || fault_ != nullptr)) break;
     siginfo_t info{};
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -250,7 +250,7 @@ void ChildProcess::take_output(std::string_view bytes) {
   changed_.notify_all();
 }
 
-// Drops its output from here on, because the processes that it has started may still write.
+// Kills the group and drops its output from here on, because processes outside of the group may still write.
 void ChildProcess::stop_for(const char* fault) {
   fault_ = fault;
   lines_.clear();

@@ -29,8 +29,8 @@ class ChildProcess {
   // kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes its input, waits `kGrace` for it to end, then ends it like end(). It cannot reach descendants that
-  // clear their environment. If this program is killed itself, only the process itself ends.
+  // Closes the input of the process, waits `kGrace` for it to end, then calls end(). It cannot reach
+  // descendants that clear their environment. If this program is killed itself, only the process itself ends.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -44,7 +44,8 @@ class ChildProcess {
   // Adds a line of output that is not an answer to the log.
   void note(const std::string& line);
 
-  // Describes how it ended: `died with signal 9`, `ended with exit code 3`, or, running, `closed its input`.
+  // Describes how the process ended: `died with signal 9`, `ended with exit code 3`. If it is still running:
+  // `closed its input`.
   std::string ending();
 
   // Returns the last lines of its standard error, `A | B | C`, or an empty text if there are none.
@@ -80,10 +81,10 @@ class ChildProcess {
   bool started_ = false;
   int start_failure_ = 0;
   std::deque<std::string> lines_;
-  std::size_t unread_ = 0;  // bytes that these lines take
+  std::size_t unread_ = 0;  // size of these lines in bytes
   std::string part_of_line_, log_;
   bool ended_ = false, asked_ = false;
-  const char* fault_ = nullptr;  // fault of its output, for which it was killed
+  const char* fault_ = nullptr;  // reason why the process was killed and its output ignored
   int status_ = 0;
   Clock::time_point leave_by_ = Clock::time_point::max();
 };

@@ -19,9 +19,9 @@ std::filesystem::path own_worker_list();
 // Returns remap's own list, found from the running program, or an empty path if it is not installed.
 std::filesystem::path shipped_worker_list();
 
-// A PrivateFolder is a folder of this process, deleted with the object. Its name holds the mark of this
-// machine and process (core/owner_tag.hpp), so that many may share the parent. Making one also deletes the
-// folders of processes of this machine that have ended.
+// A PrivateFolder is a folder of this process, deleted with the object. Its name contains a mark of this
+// machine and process (core/owner_tag.hpp), so many processes may use the same parent folder. The constructor
+// also deletes the folders of ended processes of this machine.
 class PrivateFolder {
  public:
   // Without a parent it is in memory if possible. Throws kOutput if no folder can be made.

@@ -1,7 +1,7 @@
-// This file stores pictures. A file holds one line of text, the request and the renderer's version. Then come
-// a line with the checksum of that line and of the picture, and the picture as raw floats. Its name is a hash
-// of the first line. The line is compared, so requests with equal hashes are not confused. The checksum
-// covers every byte, so a damaged file is not used.
+// This file stores pictures. The first line of a file is the request and the renderer's version. The second
+// line is the checksum of the first line and of the picture. The picture follows as raw floats. The name of
+// the file is a hash of the first line. Two requests may have the same hash, so the line is compared. The
+// checksum covers every byte, so a damaged file is not used.
 #include "worker/picture_cache.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
-constexpr std::size_t kChecksumBytes = 17;  // 16 digits and a line break
+constexpr std::size_t kChecksumBytes = 17;  // 16 digits and the line break
 
 std::string checksum_line(std::string_view line, std::string_view picture) {
   return hexadecimal(hash_of(std::string(line) += picture)) + "\n";

@@ -10,15 +10,15 @@
 
 namespace remap {
 
-// A PictureCache holds the pictures of one version of one renderer, in a folder of the cache named after
-// both. It is safe for many threads and processes. A picture appears complete or not at all.
+// A PictureCache stores the pictures of one version of one renderer. Its folder is named after both. It is
+// safe for many threads and processes. A picture appears complete or not at all.
 class PictureCache {
  public:
   // `renderer` is WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // A Found is what the cache holds for a request. If there is a file that cannot be used, `image` is empty
-  // and `damage` has the reason (`FILE: its checksum does not match its content`).
+  // A Found is what the cache has for a request. If the file cannot be used, `image` is empty and `damage`
+  // has the reason (`FILE: its checksum does not match its content`).
   struct Found {
     std::optional<Image> image;
     std::string damage;

@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// These limit one renderer. Models are listed, and parameters are options.
+// These limit the answer of one renderer. `remapc renderers` lists all models, and parameters become options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -101,7 +101,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
   }
-  model.is_external = true;  // another process, and its files
+  model.is_external = true;  // a worker is another process and uses files
   model.noise = field.flag("noise");
   return model;
 }

@@ -18,10 +18,10 @@ inline constexpr int kWorkerProtocol = 1;
 struct WorkerDescription {
   std::string renderer;  // name and version of the renderer
   std::vector<ModelDescription> models;
-  bool meshes = false;  // accepts shapes other than the sphere, as files
+  bool meshes = false;  // true if it accepts other shapes than the sphere, as files
 };
 
-// A PictureRequest is the request for one picture, the same in every run. It is the key of a cache.
+// A PictureRequest is the request for one picture. It is the same in every run, so it is the key of a cache.
 struct PictureRequest {
   std::string text;   // JSON: model, parameters, scene, seed, channels
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`
@@ -33,7 +33,7 @@ PictureRequest picture_request(const Material& material, const Scene& scene);
 
 // Return lines for a worker's standard input, without the line break.
 std::string describe_line(std::int64_t id, unsigned threads);
-// `mesh` is the file of the shape, unused for the sphere.
+// `mesh` is the file of the shape. It is not used for the sphere.
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh);
 std::string quit_line(std::int64_t id);
@@ -41,8 +41,8 @@ std::string quit_line(std::int64_t id);
 // Returns true if a line is meant as an answer. Lines before the first answer are banners.
 bool is_answer(const std::string& line);
 
-// Returns the error that an answer reports, if it does. Throws kInput, beginning with `context`, if the line
-// is not the answer to request `id`.
+// Returns the error if the answer reports one. Throws kInput, beginning with `context`, if the line is not
+// the answer to request `id`.
 std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context);
 // `prefix` is the part of every model's name before the `/`; an empty prefix accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,

@@ -128,7 +128,7 @@ std::vector<WorkerEntry> read_worker_list(const fs::path& path) {
 WorkerEntry parse_worker(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !is_name(text.substr(0, equals)) || equals + 1 == text.size())
-    throw Error(ErrorKind::kUsage, "--worker " + text + ": cannot be read as NAME=COMMAND");
+    throw Error(ErrorKind::kUsage, "--worker " + text + ": is not of the form NAME=COMMAND");
   return {text.substr(0, equals), text.substr(equals + 1), fs::current_path().string(), ""};
 }
 

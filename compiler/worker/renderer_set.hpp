@@ -1,5 +1,6 @@
-// This file combines all renderers: the built-in one and workers. A worker is started when a model with its
-// prefix is first requested. Workers come from the command line, the user's list, and the shipped list.
+// This file combines all renderers: the built-in one and workers. It starts a worker when a model with the
+// worker's prefix is first requested. Workers come from the command line, the user's list, and the shipped
+// list.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ class RendererSet final : public Renderer {
   RendererSet(std::vector<WorkerEntry> workers, WorkerSettings settings);
   ~RendererSet() override;
 
-  // Names the built-in renderer and the workers that have been started.
+  // Returns the names of the built-in renderer and of the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
   // Returns the built-in models and the models of started workers; starts none.
@@ -29,7 +30,8 @@ class RendererSet final : public Renderer {
 
   // Counts the pictures of workers only.
   PictureCount pictures() const;
-  // Sets a function that is called after every picture of a worker, from any thread; empty for none.
+  // Sets a function that is called after every picture of a worker, from any thread. An empty function is not
+  // called.
   void watch(std::function<void(const PictureCount&)> watcher);
   std::vector<std::string> remarks() const;
 
@@ -54,7 +56,7 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 // Parses `NAME=COMMAND` of the command line. Throws kUsage.
 WorkerEntry parse_worker(const std::string& text);
 
-// Returns all workers by name. If several have the same name, the first counts, in the order `given`, the
+// Returns all workers by name. If several have the same name, the first is used, in the order `given`, the
 // user's list, the shipped list. Throws kInput for an unreadable list, kUsage for errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 

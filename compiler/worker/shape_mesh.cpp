@@ -28,7 +28,8 @@ void append(std::string* bytes, Value value) {
 
 void append_vertex(std::string* bytes, double around, double tube) {
   const double tilt = kTorusTilt * std::numbers::pi / 180.0;
-  const auto world = [&](double a, double b, double height) {  // `height` is along the axis
+  // `height` is measured along the axis of the torus
+  const auto world = [&](double a, double b, double height) {
     for (const double value :
          {a, b * std::cos(tilt) + height * std::sin(tilt), height * std::cos(tilt) - b * std::sin(tilt)})
       append(bytes, static_cast<float>(value));

@@ -95,7 +95,7 @@ std::string Worker::next_answer(const std::string& shown) {
     if (reading == ChildProcess::Reading::kEnded) throw LostWorker(ended(shown, process_->ending()));
     if (reading == ChildProcess::Reading::kLine) {
       if (is_answer(line) || has_answered_) return line;
-      process_->note(line);  // it is a banner
+      process_->note(line);  // a banner, so it goes to the log
     }
     if (limits_.cancelled != nullptr && *limits_.cancelled) {
       process_->end();
@@ -116,8 +116,8 @@ std::string Worker::ask(const std::string& line, const std::string& shown) {
 }
 
 Image Worker::render(const PictureRequest& request) {
-  // Every request has its own file name. Otherwise a late file of a lost worker could be taken for the
-  // answer, or a file that a shared file system remembers.
+  // Every request has its own file name. With one name for all, a late file of a lost worker could be read as
+  // the answer, or an old file that a shared file system has cached.
   const std::filesystem::path picture = own_file("-" + std::to_string(++last_id_) + ".f32"),
                               mesh = own_file(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
@@ -128,7 +128,8 @@ Image Worker::render(const PictureRequest& request) {
   } catch (const Error& error) {
     fail(request.shown, without(context(request.shown) + ": ", error.what()));
   }
-  // The worker is still usable. After other faults, answers no longer match requests.
+  // The worker is still usable after an error that it reported itself. After other errors, answers no longer
+  // match requests.
   if (complaint) throw input_error(message_of(request.shown, plain(*complaint, kLongestWhat)));
   Image image = read_picture(request, picture);
   std::error_code ignored;

@@ -24,12 +24,12 @@ struct WorkerEntry {
 
 struct WorkerLimits {
   double seconds = 120.0;                        // limit for one answer
-  unsigned threads = 1;                          // number for each process
+  unsigned threads = 1;                          // number of threads in each process
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 
-// A LostWorker means that the process of a worker has ended, or was ended because it did not answer in time.
-// The request is not at fault: another process may answer it.
+// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time. This
+// is not the fault of the request, so another process may answer it.
 class LostWorker : public Error {
  public:
   explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}
@@ -64,7 +64,7 @@ class Worker {
   std::string next_answer(const std::string& shown);
   // Returns the message of an error: the place, what is wrong, and what to do if the error is about a file.
   std::string message_of(const std::string& shown, const std::string& what) const;
-  // Ends the process and returns such a message with the end of its log.
+  // Ends the process and returns a message with the end of its log.
   std::string ended(const std::string& shown, const std::string& what);
   [[noreturn]] void fail(const std::string& shown, const std::string& what);
   std::filesystem::path own_file(const std::string& ending) const;

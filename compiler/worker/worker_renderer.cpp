@@ -10,9 +10,9 @@
 namespace remap {
 namespace {
 
-// This many processes may be lost for one picture. Only losses for the same picture count, because a machine
-// that fails can lose many processes at once. The last try gets a new process. Old processes may all end
-// after the same number of pictures, and the picture would not be the cause.
+// This many processes may be lost for one picture. Losses are counted for each picture, because a machine
+// that fails can lose many processes at once. The last attempt uses a new process. Old processes may all end
+// after the same number of pictures, which would not be the fault of this picture.
 constexpr int kMostLosses = 3;
 
 // A pause checks this often for an interruption.
@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// Replaces 0 by numbers of processes, and of threads in each, that suit the machine.
+// Replaces 0 by a suitable number of processes for this machine, and of threads in each.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.limits.threads = std::max(1u, core_count() / settings.processes);
@@ -53,7 +53,7 @@ class WorkerRenderer::Turn {
   const std::string& key_;
 };
 
-// A Lease is a worker for one picture: an idle one, or a new one if there is none.
+// A Lease borrows a worker for one picture: an idle worker, or a new one if none is idle.
 class WorkerRenderer::Lease {
  public:
   Lease(const WorkerRenderer& renderer, bool must_be_new)
@@ -110,7 +110,8 @@ std::unique_ptr<Worker> WorkerRenderer::idle_worker() const {
   return worker;
 }
 
-// Returns a worker. A broken worker has ended, and has returned its licence, before another can be started.
+// Takes back a worker after its use. A broken worker has then ended, and has returned its licence, before
+// another worker can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
   if (worker != nullptr && !worker->is_usable()) worker.reset();
   {
@@ -133,7 +134,8 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if it was one loss too many. Otherwise it waits, because a lost machine is noticed late.
+// Throws if too many processes were lost for this picture. Otherwise it waits, because the loss of a machine
+// is noticed late.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(

@@ -24,15 +24,17 @@ namespace remap {
 // A WorkerSettings decides how workers are run and how their pictures are kept.
 struct WorkerSettings {
   std::optional<std::filesystem::path> cache;  // if empty, every picture is rendered
-  std::filesystem::path folder;                // for pictures in transit; if empty, one in memory
-  unsigned processes = 0;                      // most processes of one worker at once; 0: one for each core
+  std::filesystem::path folder;                // folder for pictures in transit; if empty, a folder in memory
+  unsigned processes = 0;  // limit of processes of one worker at once; 0: one for each core
   WorkerLimits limits;
   std::function<void()> on_picture;  // called after every picture, from any thread
-  std::function<void()> on_start;  // called before the first process starts, which leaves files and processes
+  // called before the first process starts, because processes use files that must be removed at the end
+  std::function<void()> on_start;
   // This is called from any thread with urgent warnings: the first process that is lost, the first damaged
   // picture of the cache, and that the cache cannot be written. The run continues.
   std::function<void(const std::string&)> on_warning;
-  // This is the pause before a second process renders a picture that cost one. It doubles before the third.
+  // This is the pause before a picture is rendered again after its process was lost. It doubles before the
+  // third attempt.
   std::chrono::milliseconds pause{1000};
 };
 
@@ -40,7 +42,7 @@ struct WorkerSettings {
 struct PictureCount {
   std::size_t rendered = 0;
   std::size_t cached = 0;
-  std::size_t lost_workers = 0;  // processes whose picture another one rendered
+  std::size_t lost_workers = 0;  // lost processes whose picture another process rendered
 };
 
 class WorkerRenderer final : public Renderer {
@@ -55,8 +57,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged. They
-  // also count lost processes if there were more than the one in the warning.
+  // Returns remarks for the user about pictures of other versions in the cache and about damaged pictures. It
+  // also reports lost processes if there were more than the one in the warning.
   std::vector<std::string> remarks() const;
 
  private:
@@ -64,7 +66,7 @@ class WorkerRenderer final : public Renderer {
   class Lease;
 
   std::unique_ptr<Worker> start() const;
-  std::unique_ptr<Worker> start_another() const;  // it must have the version of the first
+  std::unique_ptr<Worker> start_another() const;  // throws if its version differs from the first
   std::unique_ptr<Worker> idle_worker() const;    // null: the caller may start one
   void give_back(std::unique_ptr<Worker> worker) const;
   void accept_loss(const LostWorker& lost, int losses) const;
@@ -86,7 +88,7 @@ class WorkerRenderer final : public Renderer {
   mutable std::size_t running_ = 0;        // number of processes
   mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
   mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0}, lost_{0};
-  mutable std::atomic<bool> keeps_{true};  // false after a picture could not be written
+  mutable std::atomic<bool> keeps_{true};  // set to false when a picture cannot be written
 };
 
 }  // namespace remap

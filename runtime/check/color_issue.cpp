@@ -43,7 +43,7 @@ std::optional<ColorIssue> transfer_issue(Transfer transfer, const Rows& linear) 
                     is_srgb ? Transfer::kLinear : Transfer::kSrgb};
 }
 
-// Finds the same issues as color_issue(). Its text omits the curve.
+// Finds the same issues as color_issue(), but the text does not state the transfer curve yet.
 std::optional<ColorIssue> issue_of(Role role, Transfer transfer, const Rows& linear) {
   const bool is_specular = role == Role::kSpecular;
   if (!is_specular && role != Role::kDiffuse && role != Role::kBaseColor) return std::nullopt;

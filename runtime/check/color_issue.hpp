@@ -11,10 +11,10 @@
 namespace remap {
 
 struct ColorIssue {
-  // This text reads for example `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored
-  // in sRGB`.
+  // This text is, for example, `read as linear, is 0.19 to 0.26 in 80 % of the texels, like F0 0.04 stored in
+  // sRGB`.
   std::string text;
-  std::optional<Transfer> transfer;  // the curve with which the values would be usual
+  std::optional<Transfer> transfer;  // the curve with which the values would be plausible
 };
 
 // Finds a color map that is black or white everywhere, or whose F0 only fits the other transfer curve.

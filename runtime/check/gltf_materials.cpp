@@ -35,7 +35,7 @@ constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // the limit 
 struct InputRole {
   GltfInput input;
   Role role;
-  bool is_off_at_zero = false;  // with a factor of 0 the texture is unused, not lost
+  bool is_off_at_zero = false;  // a factor of 0 turns the texture off, so ignoring it loses nothing
 };
 
 constexpr std::array<InputRole, 16> kRoles = {{
@@ -179,7 +179,7 @@ class GltfMaterials {
     }
     const SpanValue extensions = entry["extensions"];
     const bool is_unlit = extensions[kUnlitExtension].is(SpanKind::kObject);
-    // Programs that read these two ignore every other extension of the surface.
+    // Programs that know one of these two extensions ignore every other extension of the surface.
     const bool is_alone = is_unlit || extensions[kSpecGlossExtension].is(SpanKind::kObject);
     if (extensions.is(SpanKind::kObject))
       for (const SpanValue& extension : extensions.children())

@@ -81,8 +81,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all between 0.15
-// and 0.85. Edges are thinner, so they do not count.
+// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all in this
+// range, too. This ignores edges, because they are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -197,8 +197,8 @@ void linear_color(const CheckedMaterial& material, const GltfConsumer*, const Ru
       return;
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "",
-         "is a color in whole numbers that its file tags as linear; readers that ignore the tag (glTF does) "
-         "decode it as sRGB",
+         "is a color stored as integers that its file tags as linear; programs that ignore the tag (as glTF "
+         "requires) decode it as sRGB",
          image_fix(
              material, map,
              "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
@@ -226,7 +226,7 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
 
 void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
-  // Ks of MTL is not a reflectance at normal incidence, and beside metallic a specular map is a level.
+  // Ks of MTL is not a reflectance at normal incidence. In a set with metallic, a specular map is a level.
   const bool has_metallic =
       std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
   if (material.kind == MaterialKind::kMtl || has_metallic) return;
@@ -267,12 +267,13 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;                  // the color of a label, cut out by alpha
-    constexpr int kSmall = 4;  // side of images that replace a number on purpose
+      return;  // alpha cuts a label of one color out
+    // people use images up to this side instead of a number, so a constant image is intended
+    constexpr int kSmall = 4;
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
       return;
-    // The map may be packed, and needed for its other channels.
+    // If other channels of the map are in use, the map is needed.
     if (!std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
           return other.map != use.map || all_are_constant(planes_of(material, other));
         }))
@@ -315,7 +316,7 @@ void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& r
         {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
          percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
              std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
-         "export it again with 16 bits or as half float; the bits that it lacks are in no conversion of it"});
+         "export it again with 16 bits or as half float; no conversion can restore the missing bits"});
   });
 }
 
@@ -340,7 +341,7 @@ void bad_values(const CheckedMaterial& material, const GltfConsumer*, const Rule
                         "has values that are not " + std::string(role_name(use.role)) + ": " + what,
                         image_fix(material, material.maps[use.map],
                                   has_range ? "move them into the range from 0 to 1"
-                                            : "fill such texels from those around them",
+                                            : "fill such texels from their neighbours",
                                   has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
   });
 }
@@ -416,7 +417,8 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     MaterialUse green = use;
     green.channels = Channels::kGreen;
     const Curl curl = curl_of(rgb, texels.columns, texels.rows);
-    constexpr double kClear = 2.0;  // factor; noise and rounding add the same amount to both curls
+    // least ratio of the curls; noise and rounding add the same amount to both
+    constexpr double kClear = 2.0;
     const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
                              : curl.up > kClear * curl.down ? Orientation::kDirectX
                                                             : Orientation::kUnknown;
@@ -427,7 +429,8 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
          "its slopes belong to a surface only as " + text(seen) + ", but " +
-             (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or reader says ") + text(name),
+             (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or importer states ") +
+             text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});
   });
 }
@@ -438,7 +441,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
     findings.push_back({rule.name, confidence, material.maps[use.map].shown, "",
                         "is used as " + std::string(role_name(use.role)) + ", but " + what,
                         use.slot.empty()
-                            ? "give the map a name that says what it holds, or replace it by a map of " +
+                            ? "give the map a name that states what it holds, or replace it by a map of " +
                                   std::string(role_name(use.role))
                             : "point " + use.slot + " in " + material.path.filename().string() +
                                   " to the image of " + std::string(role_name(use.role))});

@@ -71,7 +71,7 @@ std::vector<std::string> CheckedMaterial::read_maps() {
     if (map.texels == nullptr) std::ranges::move(reasons, std::back_inserter(problems));
     read[first] = map;
   }
-  // A bump map of MTL may hold heights or normals. convert decides by its texels, and so does check.
+  // A bump map of MTL may hold heights or normals. Like convert, check looks at its texels to find out.
   for (MaterialUse& use : uses)
     if (kind == MaterialKind::kMtl && use.role == Role::kHeight)
       if (const auto rgb = colors(use);
@@ -113,7 +113,7 @@ bool CheckedMaterial::is_all_metal() const {
   return std::ranges::all_of(uses, [&](const MaterialUse& use) {
     if (use.role != Role::kMetallic || use.is_neighbour) return true;
     const std::vector<float>* values = plane(use);
-    constexpr float kNearlyOne = 0.95f;  // JPEG leaves white a little grey
+    constexpr float kNearlyOne = 0.95f;  // JPEG turns white into a very light grey
     return values != nullptr && std::ranges::all_of(*values, [](float value) { return value > kNearlyOne; });
   });
 }

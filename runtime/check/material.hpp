@@ -16,7 +16,7 @@
 
 namespace remap {
 
-// A TexelSample holds texels of an image as they are stored; integers become 0 to 1. A large image is sampled
+// A TexelSample holds texels of an image as they are stored. Integers become 0 to 1. A large image is sampled
 // in an even grid of squares, so that neighbours stay neighbours.
 struct TexelSample {
   int columns = 0;
@@ -37,12 +37,12 @@ TexelSample sample_of_texture(const std::filesystem::path& file);
 // A MaterialMap is a file of a material, or an image inside one.
 struct MaterialMap {
   std::filesystem::path file;
-  std::string shown;                               // in messages: the file, or `model.glb: image 2 (metal)`
-  std::string name;                                // file name, which may show a convention
+  std::string shown;  // name in messages: the file, or `model.glb: image 2 (metal)`
+  std::string name;   // file name, which may show a convention
   std::shared_ptr<const TexelSample> texels = {};  // null if the image cannot be read
   bool is_embedded = false;                        // `file` is a temporary copy
   int tile = 0;                                    // number; 0 for a map without tiles
-  std::vector<MaterialMap> others = {};  // further images of the texture; the first readable one counts
+  std::vector<MaterialMap> others = {};  // further images of the texture; the first readable image is used
 };
 
 // A MaterialUse is one role of a material.
@@ -53,7 +53,7 @@ struct MaterialUse {
   std::string slot;             // the map's name in an asset: `metallicRoughnessTexture`
   std::vector<double> factors;  // numbers by which an asset multiplies the map; may be empty
   std::string factor_name;      // such as `metallicFactor`
-  bool is_neighbour = false;    // belongs to another material in the folder, for comparison
+  bool is_neighbour = false;    // true if it belongs to another material in the folder, for comparison
   // This is the UV set of the map (glTF).
   std::size_t tex_coord = 0;
   std::string transform = {};  // text of KHR_texture_transform; may be empty
@@ -68,7 +68,7 @@ struct GltfStatements {
   std::optional<double> specular_factor;  // KHR_materials_specular
   bool has_specular_map = false;
   bool transmits = false;
-  bool has_volume = false;  // or dispersion, whose index of refraction has no place in core glTF
+  bool has_volume = false;  // glTF has no place for the index of refraction of a volume or of dispersion
 };
 
 // An Exponent is the Ns of a material in a Wavefront MTL file.
@@ -83,20 +83,20 @@ struct CheckedMaterial {
   MaterialKind kind = MaterialKind::kFolder;
   std::string name;             // `assets/robot`, `model.glb: material "Paint"`
   std::filesystem::path path;   // a folder or an asset file
-  std::filesystem::path below;  // its folder, relative to the checked path, or empty
+  std::filesystem::path below;  // folder of `path`, relative to the checked path; may be empty
   std::vector<MaterialMap> maps;
   std::vector<MaterialUse> uses;
-  std::vector<MaterialUse> unread;  // switched off by a factor of 0, so no rule applies to them
+  std::vector<MaterialUse> unread;  // uses that a factor of 0 turns off, so no rule applies to them
   GltfStatements gltf;
   std::vector<std::string> failures;  // statements of MTL that a conversion refuses
   std::vector<Exponent> exponents;    // different exponents of an MTL file, each with its first material
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();
-  // Returns the channel that a use with one channel reads. Returns nothing for a color, and if the image
-  // lacks the channel.
+  // Returns the channel that a use with one channel reads. Returns nothing for a color, or if the image lacks
+  // the channel.
   std::optional<std::size_t> channel(const MaterialUse& use) const;
-  // Returns the stored values of that channel.
+  // Returns the stored values of the channel that a use reads.
   const std::vector<float>* plane(const MaterialUse& use) const;
   // Returns the three channels of a use, or nothing if the image has fewer.
   std::vector<const std::vector<float>*> colors(const MaterialUse& use) const;

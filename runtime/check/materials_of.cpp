@@ -49,7 +49,8 @@ bool same_folder(const fs::path& a, const fs::path& b) {
   return (a / "").lexically_normal() == (b / "").lexically_normal();
 }
 
-// Adds roughness maps of sets in the same folder to asset materials, because both may contradict.
+// Adds roughness maps of sets in the same folder to asset materials, because these maps may contradict each
+// other.
 void add_neighbours(FoundMaterials& found) {
   for (CheckedMaterial& material : found.materials) {
     if (material.kind != MaterialKind::kGltf) continue;
@@ -70,7 +71,8 @@ void add_neighbours(FoundMaterials& found) {
   }
 }
 
-// Maps that an asset uses are checked for their use, not for their names.
+// Removes maps from sets if an asset uses them. The asset states how it uses them, so they are not checked by
+// their names.
 void remove_used_by_assets(FoundMaterials& found) {
   std::set<fs::path> used;
   for (const CheckedMaterial& material : found.materials)

@@ -18,7 +18,7 @@ std::string place_of(const CheckedMaterial& material, const MaterialUse& use) {
                                           : shown + ":" + std::string(name_of(kChannels, use.channels));
 }
 
-// Returns a map of roughness, gloss or alpha as roughness. Its role decides which of these it holds.
+// Returns a map as roughness. Its role states whether it holds roughness, gloss or alpha.
 std::optional<Plane> roughness_by_role(const CheckedMaterial& material, const MaterialUse& use) {
   const Plane* stored = material.plane(use);
   if (stored == nullptr) return std::nullopt;
@@ -52,11 +52,12 @@ double distance(const Plane& a, const Plane& b, Function f) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Two maps are related by a function if they agree within this rms: a few steps of 8 bits, or JPEG.
+// Two maps are related by a function if their RMS difference is at most this. It allows a few steps of 8
+// bits, or JPEG compression.
 constexpr double kSame = 0.02, kVaries = 0.03;
 
 // Calls `judge(a, b, roughness of a, roughness of b)` for pairs of roughness maps in different channels or
-// files. b may also be an opacity map, because some people call the width alpha.
+// files. b may also be an opacity map, because some people use the name alpha for the width.
 template <typename Judge>
 void for_width_pairs(const CheckedMaterial& material, Judge judge) {
   const auto is_width = [&](const MaterialUse& use) {
@@ -76,11 +77,12 @@ void for_width_pairs(const CheckedMaterial& material, Judge judge) {
 }
 
 // Returns options of oiiotool that take the root of a map's roughness. `power` relates it to the other map,
-// which may be called alpha.
+// which may hold alpha.
 std::string root_of(const CheckedMaterial& material, const MaterialUse& use, bool is_other_alpha,
                     double power) {
   const auto raised = [&](double exponent) { return "--powc " + numbers_for(material, use, exponent, 1.0); };
-  if (use.role == Role::kOpacity) return raised(2.0 / power);  // the map stays alpha, a square
+  // the map stays alpha, which is the square of roughness
+  if (use.role == Role::kOpacity) return raised(2.0 / power);
   const std::string root = raised((is_other_alpha ? 0.5 : 1.0) / power), turn = inversion_of(material, use);
   if (use.role == Role::kGlossiness) return turn + " " + root + " " + turn;
   if (use.role == Role::kGlossinessSquared)
@@ -109,7 +111,7 @@ void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule&
       continue;
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
-            ", which is data, but its file is tagged sRGB: readers that follow the tag decode it",
+            ", which is data, but its file is tagged sRGB: programs that follow the tag decode it",
         image_fix(material, map, "read it as raw (non-color), or remove the tag",
                   "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
                   "--eraseattrib remap:color_space"));
@@ -124,8 +126,8 @@ void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule&
       if (distance(decoded, data, [](double value) { return value; }) >= kSame) continue;
       const MaterialMap& map = material.maps[(is_second ? b : a).map];
       add(map, Confidence::kCertain,
-          "holds what " + place_of(material, is_second ? a : b) +
-              " holds, through the curve of sRGB: it was exported as a color",
+          "has the values of " + place_of(material, is_second ? a : b) +
+              ", encoded as sRGB: it was exported as a color",
           image_fix(material, map, "export it again as linear (raw, non-color), or decode it",
                     "--colorconvert sRGB linear"));
     }
@@ -145,9 +147,9 @@ void gloss_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
         findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
                             "is read as " + std::string(role_name(wrong.role)) + ", but " +
                                 place_of(material, other) + " (" + std::string(role_name(other.role)) +
-                                ") says the opposite in every texel: one of them is inverted",
+                                ") is the opposite in every texel: one of the two is inverted",
                             image_fix(material, material.maps[wrong.map],
-                                      "keep the right one; if that is the other, invert this one",
+                                      "keep the correct map; if that is the other map, invert this map",
                                       inversion_of(material, wrong))});
       });
 }
@@ -157,25 +159,24 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
   for_width_pairs(
       material, [&](const MaterialUse& a, const MaterialUse& b, const Plane& first, const Plane& second) {
         if (distance(first, second, [](double value) { return value; }) < kSame) return;
-        // Maps named alpha hold opacity or a width.
+        // A map named alpha may hold opacity or a width.
         for (const double power : {2.0, 0.5, 4.0, 0.25}) {
           if (distance(first, second, [&](double value) { return std::pow(std::max(0.0, value), power); }) >=
               kSame)
             continue;
-          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha beside its root is correct
+          if (b.role == Role::kOpacity && power == 0.5) return;  // alpha next to its root is correct
           const bool second_is_wrong = power < 1.0;
           const MaterialUse &wrong = second_is_wrong ? b : a, &other = second_is_wrong ? a : b;
           const double squared = second_is_wrong ? 1.0 / power : power;
-          findings.push_back({rule.name, Confidence::kCertain, place_of(material, wrong), "",
-                              "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
-                                  (squared == 2.0 ? "square" : "fourth power") + " of what " +
-                                  place_of(material, other) + " (" + std::string(role_name(other.role)) +
-                                  ") says: " +
-                                  (squared == 2.0 ? "it holds alpha, or its root was taken of the other"
-                                                  : "it was squared twice"),
-                              image_fix(material, material.maps[wrong.map],
-                                        "keep the other map, or take the root of this one (alpha)",
-                                        root_of(material, wrong, other.role == Role::kOpacity, squared))});
+          findings.push_back(
+              {rule.name, Confidence::kCertain, place_of(material, wrong), "",
+               "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
+                   (squared == 2.0 ? "square" : "fourth power") + " of " + place_of(material, other) + " (" +
+                   std::string(role_name(other.role)) + "): " +
+                   (squared == 2.0 ? "it holds alpha, or the other map is its root" : "it was squared twice"),
+               image_fix(material, material.maps[wrong.map],
+                         "keep the other map, or take the root of this one (alpha)",
+                         root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }
       });
@@ -224,13 +225,13 @@ void duplicate_map(const CheckedMaterial& material, const GltfConsumer*, const R
       const Plane *first = material.plane(a), *second = material.plane(b);
       if (first == nullptr || second == nullptr || *first != *second) continue;
       if (deviation(*first) < kVaries) continue;
-      // The rule gloss-as-roughness reports these.
+      // The rule gloss-as-roughness reports these pairs.
       if (is_roughness(a.role) && is_roughness(b.role)) continue;
       findings.push_back({rule.name, Confidence::kLikely, place_of(material, a), "",
                           "has the same texels as " + place_of(material, b) + ": " +
                               std::string(role_name(a.role)) + " and " + std::string(role_name(b.role)) +
-                              " are seldom one map",
-                          "re-export the two maps: one of them was written twice"});
+                              " are rarely the same map",
+                          "export both maps again: one of them was written twice"});
     }
 }
 

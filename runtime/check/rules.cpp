@@ -24,7 +24,7 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// These are all extensions except the last one. Importers that ignore fewer have lists below.
+// These are all extensions except the last one. The lists below are for importers that ignore fewer.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
@@ -39,7 +39,7 @@ constexpr std::array kUsd = {"KHR_materials_sheen"sv,
                              "KHR_materials_diffuse_transmission"sv};
 
 constexpr std::array<GltfConsumer, 6> kReaders = {{
-    {"gltf", "a reader of core glTF 2.0", kExtensions},
+    {"gltf", "an importer of core glTF 2.0", kExtensions},
     {"unity", "Unity (glTFast, Lit shader)", kAllButSpecGloss, true},
     {"unreal", "Unreal Engine (Interchange)", kUnreal, false, true},
     {"godot", "Godot 4", kAllButSpecGloss},
@@ -50,13 +50,13 @@ constexpr std::array<GltfConsumer, 6> kReaders = {{
 constexpr std::array<Rule, 22> kRules = {{
     {"srgb-data", "a map of numbers (roughness, metallic, normal, ...) that its file tags as sRGB",
      look::srgb_data},
-    {"linear-color", "a color map in whole numbers that its file tags as linear", look::linear_color},
+    {"linear-color", "a color map stored as integers that its file tags as linear", look::linear_color},
     {"specular-color",
      "specular that is black or white everywhere, or whose F0 only fits another color space",
      look::specular_color},
     {"gloss-as-roughness", "a map of roughness that another map of the set shows to be gloss, or the reverse",
      look::gloss_as_roughness},
-    {"alpha-as-roughness", "a map of roughness that is a power of what another map of the set says",
+    {"alpha-as-roughness", "a map of roughness that is a power of another map of the set",
      look::alpha_as_roughness},
     {"channel-order",
      "a packed map whose channel of metallic varies smoothly while another one is black and white",
@@ -66,11 +66,11 @@ constexpr std::array<Rule, 22> kRules = {{
     {"sizes", "maps of a set that differ in size", look::sizes},
     {"metallic-greys", "metallic between 0 and 1 over areas, not only at edges", look::metallic_greys},
     {"factor-zero", "a map times a factor of 0", look::factor_zero},
-    {"factor-ignored", "a factor beside a map that the given reader ignores", look::factor_ignored},
+    {"factor-ignored", "a factor of a map that the given importer ignores", look::factor_ignored},
     {"normal-space", "a normal map that points away from the surface: of world or object space",
      look::normal_space},
     {"normal-orientation",
-     "a normal map whose slopes fit together only with green turned, against its name or reader",
+     "a normal map whose slopes only fit together with inverted green, contrary to its name",
      look::normal_orientation},
     {"wrong-texture",
      "a map in the role of another kind: normals as a color, a color as normals, one image in two roles",
@@ -80,7 +80,7 @@ constexpr std::array<Rule, 22> kRules = {{
     {"bad-values", "NaN, infinite or negative values, or values above 1, in a map of floating-point numbers",
      look::bad_values},
     {"ior", "an index of refraction or a specular factor that no material has", look::index_of_refraction},
-    {"ignored-by-reader", "an extension of a glTF material that the given reader does not know",
+    {"ignored-by-reader", "an extension of a glTF material that the given importer does not know",
      look::ignored_by_reader},
     {"unreadable-statement", "a line of an MTL file that convert refuses", look::unreadable_statement},
     {"exponent-range", "exponents of an MTL file in another range than 0 to 1000", look::exponent_range},
@@ -96,7 +96,7 @@ std::span<const Rule> rules() { return kRules; }
 std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const GltfConsumer* reader) {
   std::vector<MaterialFinding> findings;
   for (const Rule& rule : kRules) rule.look(material, reader, rule, findings);
-  // Rules about values do not apply if the map holds something else.
+  // If a map does not hold what its role states, rules about its values do not apply.
   std::set<std::string> misread;
   for (const MaterialFinding& finding : findings)
     if (finding.rule == "wrong-texture" || finding.rule == "channel-order") misread.insert(finding.context);

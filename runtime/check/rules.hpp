@@ -15,7 +15,7 @@ namespace remap {
 enum class Confidence {
   kCertain,   // the files contradict each other or themselves
   kLikely,    // the pattern rarely has another cause
-  kPossible,  // worth a look
+  kPossible,  // the user should have a look
 };
 inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCertain, "certain"},
                                                              {Confidence::kLikely, "likely"},
@@ -28,7 +28,7 @@ struct Fix {
       : words(std::move(in_words)), command(std::move(as_command)) {}
   Fix(const char* in_words) : words(in_words) {}
 
-  std::string words;  // what to edit; if there is a command, what it does
+  std::string words;  // states what to edit; if there is a command, what the command does
   // This command can be typed in the folder where texremap was started. It writes into the folder `fixed`. It
   // may be empty.
   std::string command;
@@ -43,7 +43,7 @@ struct Fix {
 struct MaterialFinding {
   std::string_view rule;  // name of the rule
   Confidence confidence = Confidence::kLikely;
-  std::string context;  // the map or material, as messages show it
+  std::string context;  // name of the map or material in messages
   std::string channel;  // such as `G`; empty for the whole map
   std::string message;  // the observation
   Fix fix;
@@ -54,7 +54,7 @@ struct GltfConsumer {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
-  bool ignores_factors_beside_maps = false;   // for metallic and roughness
+  bool ignores_factors_beside_maps = false;   // applies to metallic and roughness
   bool wants_directx_normals = false;
 };
 // Returns `gltf` (only the core), `unity`, `unreal`, `godot`, `threejs` and `usd`.
@@ -82,7 +82,8 @@ Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unread
     exponent_range;  // statements
 }  // namespace look
 
-// Gives one command to all findings in an asset that its conversion fixes, with the options of all of them.
+// Combines all findings in an asset that a conversion fixes. They get one command with the options of all of
+// them.
 void unite_conversions(const std::vector<MaterialFinding*>& findings);
 
 // Color roles are base color, diffuse and specular. Data roles are stored without a curve: widths, metallic,

@@ -92,19 +92,19 @@ void factor_ignored(const CheckedMaterial& material, const GltfConsumer* reader,
     const std::string role(role_name(use.role)), factor = number_text(use.factors.front());
     findings.push_back(
         {rule.name, Confidence::kLikely, material.name, "",
-         use.factor_name + " " + factor + " beside a map: " + std::string(reader->title) + " takes " + role +
+         use.factor_name + " " + factor + " is ignored: " + std::string(reader->title) + " reads " + role +
              " only from the map",
          "multiply " + role + " in the map by " + factor + ", and set " + use.factor_name + " to 1"});
   };
   for (const MaterialUse& use : material.uses)
-    if (!all_zero(use.factors)) judge(use);  // the rule factor_zero reports the others
+    if (!all_zero(use.factors)) judge(use);  // the rule factor_zero reports uses whose factors are all 0
   for (const MaterialUse& use : material.unread) {
     const std::vector<float>* plane = material.plane(use);
     if (plane != nullptr && std::ranges::any_of(*plane, [](float value) { return value > 0.0f; })) judge(use);
   }
 }
 
-// Real dielectrics reflect 2 to 17 % at normal incidence; their index is 1.3 (water) to 2.42 (diamond).
+// Real dielectrics reflect 2 to 17 % at normal incidence. Their index is 1.3 (water) to 2.42 (diamond).
 void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                          std::vector<MaterialFinding>& findings) {
   if (material.is_all_metal()) return;
@@ -195,13 +195,13 @@ void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const 
   };
   if (largest <= 1.0)
     add(above_zero > 1 ? Confidence::kLikely : Confidence::kPossible,
-        "a share from 0 to 1, where the format has exponents from 0 to 1000",
+        "a fraction from 0 to 1, but the format has exponents from 0 to 1000",
         "multiply Ns by the range that the exporter meant: 1000, or 128 for fixed-function GL");
   else if (largest > 1000.0)
     add(Confidence::kCertain, "beyond the range of the format, 0 to 1000",
         "divide Ns until it is at most 1000");
   else if (largest <= 100.0 && above_zero >= 3 && whole_tens == above_zero)
-    add(Confidence::kPossible, "all are whole fives up to 100, which looks like percent",
+    add(Confidence::kPossible, "all are multiples of 5 up to 100, which looks like percent",
         "multiply Ns by 10, if the exporter wrote percent of the range 0 to 1000");
   else if (largest == 128.0 && above_zero >= 2)
     add(Confidence::kPossible, "the largest is 128, which looks like the range of fixed-function GL",

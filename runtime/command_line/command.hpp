@@ -36,7 +36,8 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
-// OptionTags are consequences of the use of an option, as bits that each program defines.
+// An OptionTags is a set of bits that each program defines. They state what follows from the use of an
+// option.
 using OptionTags = unsigned;
 
 // A Reader reads the word of an option into a value. For other words `read` throws kUsage, with the option
@@ -47,7 +48,8 @@ struct Reader {
   std::vector<std::string> choices;
 };
 
-// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
+// Throws kUsage, because `option` got `word`. The message offers the `known` names, each of which is a
+// `noun`.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 
@@ -91,7 +93,7 @@ inline constexpr int kMostWords = 1000;
 
 // A GivenOption is an option from the command line.
 struct GivenOption {
-  std::string name;                // `--type`; for words without an option the name in the help
+  std::string name;                // `--type`; for words without an option, the name in the help
   std::vector<std::string> words;  // empty for a flag
   OptionTags tags = 0;
 };
@@ -107,7 +109,7 @@ class Option {
   // For lists: decides whether words after the first belong to the option. If not, repeat the option.
   Option* allow_extra_args(bool allowed);
   Option* expected(int min, int max);
-  // For lists: items come in groups of this many words.
+  // For lists: an item consists of this many words.
   Option* type_size(int count);
   Option* excludes(Option* other);
   Option* needs(Option* other);

@@ -70,7 +70,7 @@ std::string entry(const std::string& name, const std::string& description) {
   return line + wrapped(description, kDescriptionColumn) + "\n";
 }
 
-// Splits the type of the value from the descriptions of its checks, which CLI11 joins as `TYPE:CHECK`.
+// Splits the type of the value from the descriptions of its checks. CLI11 joins them as `TYPE:CHECK`.
 std::pair<std::string, std::string> type_and_checks(const CLI::Option& option) {
   const std::string text = option.get_type_name();
   std::size_t colon = std::string::npos;  // a name may contain colons, such as FILE[:CHANNEL]
@@ -94,7 +94,7 @@ std::string default_text(const CLI::Option& option) {
   return replaced(without_quotes(without_quotes(option.get_default_str(), '[', ']'), '"', '"'), "\"", "");
 }
 
-// With `whole` the text also lists the options that it excludes, which errors use as well.
+// If `whole` is set, the text also lists the options that this option excludes. Messages use this text, too.
 std::string option_description(const CLI::Option& option, bool whole) {
   std::vector<std::string> remarks;
   if (const std::string allowed = allowed_values(option); !allowed.empty())
@@ -129,7 +129,8 @@ std::string usage(const CLI::App& app, const std::string& name) {
   return text + " [options]";
 }
 
-// Returns the groups in the order of their first options, but help next to last and rare groups last.
+// Returns the groups in the order of their first options. The group of help is next to last, and rare groups
+// are last.
 std::vector<std::string> groups(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())

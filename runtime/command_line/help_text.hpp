@@ -43,8 +43,8 @@ std::string command_words(const CLI::App& command);
 // Returns an empty text if there is no limit.
 std::string allowed_values(const CLI::Option& option);
 
-// Breaks lines of more than 80 columns at blanks. Lines after the first are indented by `indent` columns, and
-// the first is assumed to begin there, too. Lines that begin with a blank are not broken.
+// Breaks lines of more than 80 columns at blanks. Lines after the first are indented by `indent` columns. The
+// first line is assumed to begin at that column, too. Lines that begin with a blank are not broken.
 std::string wrapped(std::string_view text, std::size_t indent);
 
 }  // namespace remap

@@ -13,7 +13,8 @@ extern "C" void note_interruption(int) { interrupted.store(true, std::memory_ord
 }  // namespace
 
 void watch_interruptions() {
-  // A second call must not swallow a second signal.
+  // Only the first call installs the handler. A second call would ignore the second signal, which must end
+  // the process.
   static std::atomic_flag is_watching;
   if (is_watching.test_and_set()) return;
   watch_signals(note_interruption);

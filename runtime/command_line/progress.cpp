@@ -32,7 +32,7 @@ Progress::~Progress() { hide(); }
 
 void Progress::hide() {
   const std::lock_guard lock(mutex_);
-  if (line_is_up_) std::fputs("\r\033[K", stderr);  // to the start of the line, then erase to its end
+  if (line_is_up_) std::fputs("\r\033[K", stderr);  // moves to the start of the line and erases it
   line_is_up_ = false;
 }
 

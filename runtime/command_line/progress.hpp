@@ -29,7 +29,7 @@ class Progress {
   void advance(std::size_t count = 1);
   // Changes the label.
   void relabel(std::string label);
-  // Erases the line for other output. It comes back in time.
+  // Erases the line to make room for other output. The next update shows it again.
   void hide();
 
  private:

@@ -123,7 +123,8 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
            what.substr(equals + 3) + "'" + see_help(command);
   if (const std::size_t at = what.find(excludes);
       error.get_name() == "ExcludesError" && at != std::string::npos)
-    return what.substr(0, at) + " cannot be used with " + what.substr(at + excludes.size());
+    return what.substr(0, at) + " cannot be used with " + what.substr(at + excludes.size()) +
+           " (remove one of the two)";
   return what + see_help(command);
 }
 

@@ -12,16 +12,16 @@ class Command;
 // Lays out the help of `command` (help_text.hpp), parses the arguments, and runs the command. Commands work
 // in callbacks and throw Error. Returns the exit code: 0 for success, 1 for failure, 2 for wrong usage. A
 // failure is printed as `program: place: what is wrong (what to do)`, where `program` is the name of
-// `command`. For an unknown option or command the message has the closest known name. Standard output is
-// flushed, and a failure of that is a failure. Never throws.
+// `command`. For an unknown option or command, the message suggests the closest known name. If standard
+// output cannot be flushed, the run has failed. Never throws.
 int run_app(Command& command, int argc, const char* const* argv) noexcept;
 
 // Reads `words` as the arguments of `command`, without its name, and runs it. Throws kUsage for words that it
 // does not accept; help is printed.
 void run_words(Command& command, std::vector<std::string> words);
 
-// Prints one line to standard error: `program: message`. Line breaks in the message become spaces, other
-// control characters escapes (plain_text.hpp). An endless message is cut.
+// Prints one line to standard error: `program: message`. Line breaks in the message become spaces. Other
+// control characters become escapes (plain_text.hpp). An endless message is cut.
 void print_message(const std::string& program, const std::string& message);
 
 // Returns true if standard error is a terminal.

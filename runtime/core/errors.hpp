@@ -13,7 +13,8 @@ inline Error usage_error(const std::string& message) { return {ErrorKind::kUsage
 inline Error input_error(const std::string& message) { return {ErrorKind::kInput, message}; }
 inline Error output_error(const std::string& message) { return {ErrorKind::kOutput, message}; }
 inline Error numeric_error(const std::string& message) { return {ErrorKind::kNumeric, message}; }
-// Returns the error of a system call that failed with errno `code`. The system's text follows `message`.
+// Returns the error of a system call that failed with errno `code`. The message is `message` and the system's
+// text.
 inline Error system_error(ErrorKind kind, const std::string& message, int code) {
   return {kind, message + ": " + std::strerror(code), code};
 }
@@ -26,7 +27,7 @@ inline bool is_transient(int system_code) noexcept {
   return system_code == EIO;
 }
 
-// Returns true if the run may work when it is repeated. The storage was full or did not answer, or the run
+// Returns true if the run may work when it is repeated: the storage was full or did not answer, or the run
 // was stopped (EINTR).
 inline bool is_retryable(int system_code) noexcept {
 #ifdef EDQUOT

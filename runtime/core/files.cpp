@@ -21,7 +21,7 @@ constexpr std::string_view kUnfinished = ".unfinished-";
   throw system_error(ErrorKind::kOutput, path.string() + ": cannot be written", code);
 }
 
-// Returns the mark in an unfinished file's name, before its random letters. Returns "" otherwise.
+// Returns the mark in an unfinished file's name, before its random letters, or "" if the name has no mark.
 std::string_view mark_in(std::string_view name) {
   const std::size_t found = name.rfind(kUnfinished);
   if (!name.starts_with('.') || found == std::string_view::npos) return {};
@@ -37,7 +37,7 @@ std::string cut(std::string text, std::size_t size) {
   return text.substr(0, size);
 }
 
-// Removes files once per folder, because a run writes thousands of files.
+// Removes abandoned files only once per folder, because a run writes thousands of files.
 void remove_abandoned_once(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> done;

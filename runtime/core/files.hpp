@@ -24,12 +24,12 @@ std::filesystem::path unfinished_name(const std::filesystem::path& path);
 // Removes the unfinished files of ended processes from a folder, even if an earlier call has done so.
 void remove_unfinished(const std::filesystem::path& folder);
 
-// Replaces the name of the file `unfinished` by `path` in a library's message.
+// Replaces the name `unfinished` by `path` in the message of a library.
 std::string with_final_name(std::string message, const std::filesystem::path& unfinished,
                             const std::filesystem::path& path);
 
-// Decides whether the program waits until a result is on the disk. After a power cut the file is then the old
-// or the new one. Use kNo only for files that their reader can verify and make again.
+// Decides whether the program waits until a result is on the disk. After a power cut the file is then either
+// the old or the new one. Use kNo only for files that can be checked and made again.
 enum class Flush { kYes, kNo };
 
 // Gives the finished file its final name. On failure it removes `unfinished` and throws kOutput. It fails if

@@ -13,8 +13,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A Confinement is a folder to which inputs are confined. It holds the path as file names begin with it, and
-// the path after links are resolved.
+// A Confinement is a folder to which inputs are confined. It has the path of the folder as it begins the
+// names of files, and the path after links are resolved.
 struct Confinement {
   fs::path name, place;
 };
@@ -35,14 +35,15 @@ std::string kind_text(fs::file_type type) {
 }
 
 fs::path without_end(const fs::path& folder) {
-  return folder.has_filename() ? folder : folder.parent_path();  // `tree/` has no filename
+  return folder.has_filename() ? folder : folder.parent_path();  // the path `tree/` has an empty filename
 }
 
 bool lies_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// Compares the open file with the resolved name, because the name may lead to another file by now.
+// Compares the open file with the file of the resolved name, because somebody may have changed the name in
+// the meantime.
 void require_confined(const fs::path& path, int descriptor) {
   std::shared_ptr<const std::vector<Confinement>> all;
   {
@@ -135,7 +136,7 @@ std::optional<std::string_view> InputLines::next() {
     searched = buffer_.size();
     if (searched > kLongest)
       throw input_error(file_.path().string() + ": line " + std::to_string(number_ + 1) + " has more than " +
-                        std::to_string(kLongest >> 20) + " MB, the most that is read of a line");
+                        std::to_string(kLongest >> 20) + " MB, which is the limit for a line");
     buffer_.resize(searched + kPiece);
     const std::size_t count = file_.read(end_ + searched, buffer_.data() + searched, kPiece);
     buffer_.resize(searched + count);

@@ -17,8 +17,8 @@ namespace remap {
 // a device has no end. Call this before you hand a path that a user typed to a library.
 void require_regular_file(const std::filesystem::path& path);
 
-// Sets the folders whose files others may have put there. A file below one of them must still lie below it
-// after links are resolved. The setting holds for the whole process; set it before reading inputs.
+// Sets the folders that may contain files from strangers. A file below such a folder must still lie below it
+// after links are resolved. The setting applies to the whole process. Set it before reading inputs.
 void confine_inputs(std::vector<std::filesystem::path> folders);
 
 class InputFile {
@@ -45,7 +45,7 @@ class InputFile {
   std::uintmax_t size_ = 0;
 };
 
-// Hands over the whole file in order, in pieces of a megabyte: `take(std::string_view)`.
+// Passes the whole file in order, in pieces of a megabyte, to `take(std::string_view)`.
 template <typename Take>
 void for_pieces(const InputFile& file, const Take& take) {
   std::vector<char> piece(std::size_t{1} << 20);

@@ -1,5 +1,5 @@
-// This file holds JSON as values, which the programs print and write and which parse_json() (json_field.hpp)
-// returns. Only json.cpp includes the library that turns values into text.
+// This file holds JSON values. The programs print and write them, and parse_json() (json_field.hpp) returns
+// them. Only json.cpp includes the library that turns values into text.
 #pragma once
 
 #include <array>
@@ -83,8 +83,8 @@ class Json {
   bool empty() const { return size() == 0; }
 
   // Returns the text on one line, or with `indent` spaces for each level. A text that is not UTF-8, as a file
-  // name may be, gets replacement characters. If a field `path` has such a text, a field `path_base64` beside
-  // it holds the bytes; lists of texts are treated alike.
+  // name may be, gets replacement characters. If a field `path` has such a text, a field `path_base64` next
+  // to it holds the bytes. The same applies to lists of texts.
   std::string dump(int indent = -1) const;
 
   using Value =

@@ -73,7 +73,7 @@ Json value_of(SpanValue span, const std::string& context) {
 Json parse_json(std::string_view text, const std::string& context) {
   if (text.size() > kLongestJson)
     throw input_error(context + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
-                      std::to_string(kLongestJson >> 20) + " MB are read");
+                      std::to_string(kLongestJson >> 20) + " MB can be read");
   return value_of(SpannedJson(text, context).root(), context);
 }
 

@@ -19,7 +19,7 @@ inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
 inline constexpr std::size_t kMostEntries = 100'000;
 // Limits remarks, methods and comments: people read them, and they become comments of headers.
 inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
-// Returns the values of a JSON text. If a key is repeated, the last field counts. Throws like SpannedJson
+// Returns the values of a JSON text. If a key is repeated, the last field is used. Throws like SpannedJson
 // (json_spans.hpp). Also throws kInput, beginning with `context`, for a text beyond kLongestJson and for a
 // number that a double cannot hold.
 Json parse_json(std::string_view text, const std::string& context);

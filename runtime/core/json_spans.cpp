@@ -265,7 +265,7 @@ SpannedJson::SpannedJson(std::string_view text, const std::string& context) : te
   if (text.size() > kLongestSpannedText)
     throw input_error(context + ": has " + std::to_string(text.size() >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestSpannedText >> 20) +
-                      " MB are read (keep buffers and images in files of their own)");
+                      " MB can be read (store buffers and images in separate files)");
   SpanScanner(*this, context).scan();
 }
 

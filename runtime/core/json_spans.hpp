@@ -1,5 +1,5 @@
-// This file scans JSON strictly and keeps the place of each value and key in the text. An editor
-// (text_edits.hpp) can then replace some bytes and move no others. Numbers stay text: 9007199254740993 and
+// This file scans JSON strictly and stores the place of each value and key in the text. An editor
+// (text_edits.hpp) can then replace some bytes without moving others. Numbers stay text: 9007199254740993 and
 // 1E400 are read only on request.
 #pragma once
 
@@ -48,8 +48,8 @@ class SpannedJson {
   friend class SpanScanner;
   struct Node {
     std::uint32_t begin = 0, end = 0;
-    std::uint32_t key_begin = 0, key_end = 0;  // with its quotes; equal without a key
-    std::uint32_t parent = 0, next = 0;        // next of the same parent; 0 means none
+    std::uint32_t key_begin = 0, key_end = 0;  // range of the key with its quotes; empty without a key
+    std::uint32_t parent = 0, next = 0;        // index of the parent, and of its next child; 0: none
     std::uint32_t count = 0;                   // number of entries or members, which follow this node
     SpanKind kind = SpanKind::kNull;
   };
@@ -58,8 +58,8 @@ class SpannedJson {
   std::vector<Node> nodes_;
 };
 
-// A SpanValue is a value of a SpannedJson, which must outlive it. It may be empty; then it has neither
-// members nor a number.
+// A SpanValue is a value of a SpannedJson. It must not outlive the SpannedJson. An empty SpanValue has
+// neither members nor a number.
 class SpanValue {
  public:
   SpanValue() = default;
@@ -82,7 +82,7 @@ class SpanValue {
   std::optional<std::string> text() const;
   // Returns the number if a double can hold it, and nothing for other values.
   std::optional<double> number() const;
-  // Returns a non-negative integer, as glTF uses them for indices. Returns nothing for other values.
+  // Returns a non-negative integer, which glTF uses for indices. Returns nothing for other values.
   std::optional<std::size_t> whole() const;
   std::size_t size() const noexcept { return json_ != nullptr ? node().count : 0; }
   // Returns the entries of a list or the members of an object, including repeated keys.
@@ -91,7 +91,7 @@ class SpanValue {
   std::vector<SpanValue> entries() const {
     return is(SpanKind::kList) ? children() : std::vector<SpanValue>();
   }
-  // Returns the member of an object. If a key is repeated, the last member counts, as in JSON libraries.
+  // Returns the member of an object. If a key is repeated, the last member is used, as in JSON libraries.
   SpanValue find(std::string_view key) const;
   SpanValue operator[](std::string_view key) const { return find(key); }
 

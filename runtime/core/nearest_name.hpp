@@ -10,7 +10,7 @@ namespace remap {
 
 // Returns the candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment),
 // or an empty string if none is close. A candidate is close if at most a third of the letters of the longer
-// name are wrong. A beginning such as --out counts as one wrong letter, if it is at least half of the
+// name are wrong. A beginning such as --out is treated as one wrong letter if it is at least half of the
 // candidate.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
@@ -18,8 +18,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 // distance, returns the first. `candidates` must not be empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
 
-// Returns up to `count` close candidates. Candidates that contain `name` or that `name` contains come first;
-// the others follow by that distance.
+// Returns up to `count` close candidates. Candidates that contain `name`, or that `name` contains, come
+// first. The others follow in the order of their distance.
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,
                                        std::size_t count);
 

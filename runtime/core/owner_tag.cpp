@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kTagDigits = 8;
 
-// Returns a text for the machine since its start and its PID namespace. The machine name is not enough,
-// because cloned machines share one name.
+// Returns a text that identifies the machine since its start, and its PID namespace. The machine's name is
+// not enough, because cloned machines have the same name.
 std::string place_of_processes() {
   std::error_code ignored;
   std::string start;

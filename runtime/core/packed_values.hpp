@@ -1,4 +1,5 @@
-// This file packs values as bytes for another process of the same program. Numbers are as in memory.
+// This file packs values as bytes for another process of the same program. Numbers have the same bytes as in
+// memory.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,8 @@
 
 namespace remap {
 
-// PackedValues writes and reads values. A struct joins in through a function `template <typename Archive>
-// void fields(Archive& archive, Struct& value)`. It hands all its members to the archive:
-// `archive(value.name)`.
+// PackedValues writes and reads values. A struct needs a function `template <typename Archive> void
+// fields(Archive& archive, Struct& value)`, which passes each member to the archive: `archive(value.name)`.
 class PackedValues {
  public:
   PackedValues() = default;                                                               // for writing

@@ -8,10 +8,10 @@
 
 namespace remap {
 
-// Limits the text of others in a message of this project to about one screen.
+// Limits text from others in a message of this project to about one screen.
 inline constexpr std::size_t kLongestMessage = 2000;
 
-// Returns true if `text` is UTF-8 that reads everywhere as it is written. It has no control characters and no
+// Returns true if `text` is UTF-8 that looks the same in every program. It has no control characters and no
 // line breaks of Unicode. It has no marks that change the direction of text (U+202E and the like), which can
 // make a comment look like code.
 bool is_plain_text(std::string_view text);
@@ -23,11 +23,12 @@ std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 // Returns `text` in lower case, in every script. Bytes that are not UTF-8 stay unchanged.
 std::string without_case(std::string_view text);
 
-// Replaces every character that is_plain_text() refuses by `_`, because names of new files are made of texts
+// Replaces every character that is_plain_text() refuses by `_`, because names of new files come from texts
 // that others wrote. Keeps bytes that are not UTF-8, because file names may be in other encodings.
 std::string plain_file_name(std::string_view text);
 
-// Returns the parts of `text` between separators. Parts may be empty, so there is one more than separators.
+// Returns the parts of `text` between separators. Parts may be empty, so there is one more part than
+// separators.
 std::vector<std::string> parts_between(std::string_view text, char separator);
 
 // Returns a byte as URIs write it: `%2F`.

@@ -18,9 +18,9 @@ namespace {
 
 [[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
   const bool megabytes = largest >= 1 << 20;
-  throw Error(ErrorKind::kInput,
-              path.string() + ": has more than " + std::to_string(megabytes ? largest >> 20 : largest) +
-                  (megabytes ? " MB" : " bytes") + ", the most that is read of such a file");
+  throw Error(ErrorKind::kInput, path.string() + ": has more than " +
+                                     std::to_string(megabytes ? largest >> 20 : largest) +
+                                     (megabytes ? " MB" : " bytes") + ", which is the limit for such a file");
 }
 
 // Returns true if the caller's shell has opened the file that this name leads to.
@@ -33,7 +33,8 @@ void require_room(const fs::path& path, std::uintmax_t size, std::uintmax_t larg
   if (size > largest) fail_of_size(path, largest);
 }
 
-// Reads to the end. A signal does not end the reading; the second one of interruption.hpp ends the process.
+// Reads to the end of the pipe. A first signal does not stop the reading. A second signal ends the process
+// (interruption.hpp).
 std::string content_of_pipe(const fs::path& path, std::uintmax_t largest) {
   const OpenFile file(open_to_read(path));
   if (!file.is_open()) fail_to_read(path, errno);

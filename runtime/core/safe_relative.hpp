@@ -6,7 +6,7 @@
 
 namespace remap {
 
-// Returns why `text` is not a path below a folder: it is absolute, leads up by `..`, or has control
+// Returns why `text` is not a path below a folder: it is absolute, it leads up with `..`, or it has control
 // characters or line breaks. Returns an empty text for a safe path.
 std::string fault_of_relative(const std::string& text);
 

@@ -39,8 +39,8 @@ void wait_for_writers(int descriptor);
 std::ptrdiff_t read_at(int descriptor, std::uintmax_t place, char* bytes, std::size_t size);
 std::ptrdiff_t read_on(int descriptor, char* bytes, std::size_t size);
 
-// Creates a file for writing and reading; `stream` has it as a descriptor. Fails if the name exists, even as
-// a link. The umask of the user decides its permissions.
+// Creates a file for writing and reading. descriptor_of() returns its descriptor. Fails if the name exists,
+// even as a link. The umask of the user decides its permissions.
 std::FILE* create_file(const std::filesystem::path& path);
 int descriptor_of(std::FILE* stream);
 
@@ -83,20 +83,21 @@ inline int errno_of(const std::error_code& failure) { return failure.default_err
 
 int own_process();
 bool has_ended(int process);
-std::string machine_name();             // empty if unknown
-std::uint64_t memory_size();            // of this machine, in bytes; 0 if unknown
-std::filesystem::path program_file();   // of this process; empty if unknown
-void raise_limit_of_open_files();       // as far as the system allows
+std::string machine_name();             // empty if it is unknown
+std::uint64_t memory_size();            // memory of this machine in bytes, 0 if it is unknown
+std::filesystem::path program_file();   // path of this program, empty if it is unknown
+void raise_limit_of_open_files();       // raises the limit as far as the system allows
 void fail_at_limit_of_file_size();      // makes writes beyond the limit fail instead of ending the process
 void watch_signals(void (*note)(int));  // interruption.hpp lists the signals and their effect
 
-// A ProcessCopy is a copy of this process, with the stream of bytes between both.
+// A ProcessCopy is a copy of this process, with the stream of bytes between the two.
 struct ProcessCopy {
   int process = 0;
   int descriptor = -1;
 };
-// Starts a copy, which calls `serve` with its end of the stream and then ends. The copy also ends with this
-// process, which must have only one thread. Returns nothing if the system cannot copy processes.
+// Starts a copy of this process. The copy calls `serve` with its end of the stream and then ends. It also
+// ends with this process, which must have only one thread. Returns nothing if the system cannot copy
+// processes.
 std::optional<ProcessCopy> copy_process(const std::function<void(int descriptor)>& serve);
 // Closes the stream and waits. Returns `by signal 11 (Segmentation fault)`, or `with exit code 0`.
 std::string end_of(const ProcessCopy& copy);
@@ -104,17 +105,17 @@ std::string end_of(const ProcessCopy& copy);
 void interrupt(const ProcessCopy& copy);
 // Writes all bytes to the stream. Returns false if the other side has ended.
 bool send_all(int descriptor, const std::string& bytes);
-// Returns which descriptors can be read or have ended, and ignores those below 0. Waits until one is ready, a
-// signal comes, or a tenth of a second is over.
+// Returns which descriptors have data to read or have ended. It ignores descriptors below 0. It waits until
+// one is ready, a signal comes, or a tenth of a second is over.
 std::vector<bool> wait_to_read(const std::vector<int>& descriptors);
 
 struct ResourceUse {
-  double processor_seconds = 0.0;     // of all threads
+  double processor_seconds = 0.0;     // processor time of all threads
   std::size_t peak_memory_bytes = 0;  // resident memory
 };
 
-// Returns what this process and its ended copies have used since the start. peak_memory_bytes is the largest
-// of them. Returns zeros if the system does not report it.
+// Returns what this process and its ended copies have used since the start. peak_memory_bytes is the peak of
+// the process that used the most. Returns zeros if the system does not report it.
 ResourceUse resource_use() noexcept;
 
 }  // namespace remap

@@ -35,7 +35,7 @@ FileFacts facts_of(const struct stat& found) {
 void watch(int signal, unsigned flags, void (*note)(int)) {
   struct sigaction action {};
   sigaction(signal, nullptr, &action);
-  if (action.sa_handler == SIG_IGN) return;  // nohup started the program so that it ignores the signal
+  if (action.sa_handler == SIG_IGN) return;  // nohup has set this signal to be ignored
   action = {};
   action.sa_handler = note;
   action.sa_flags = static_cast<int>(flags | SA_RESTART);
@@ -131,7 +131,8 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
 
-// Returns true for a path that cannot be opened: it was made read-only, so there is nothing to wait for.
+// A path that cannot be opened is read-only, so nothing in it is still to be written. The function then
+// returns true.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return !file.is_open() || wait_for_disk(file.get());
@@ -170,8 +171,8 @@ void fail_at_limit_of_file_size() { std::signal(SIGXFSZ, SIG_IGN); }
 
 void watch_signals(void (*note)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) watch(signal, SA_RESETHAND, note);
-  // Nobody reads the output any more. Every further write raises SIGPIPE, which must not end the process
-  // before it has cleaned up.
+  // This signal means that nobody reads the output any more. Every further write raises SIGPIPE again, which
+  // must not end the process before it has removed its files.
   watch(SIGPIPE, 0, note);
 }
 

@@ -56,11 +56,13 @@ std::optional<ProcessCopy> copy_process(const std::function<void(int)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() == parent) serve(ends[1]);
   std::fflush(nullptr);
-  ::_exit(0);  // _exit, since objects of the program and its libraries belong to the other process
+  // _exit does not destroy the objects of the program and its libraries, which belong to the other process
+  ::_exit(0);
 }
 
 std::string end_of(const ProcessCopy& copy) {
-  ::shutdown(copy.descriptor, SHUT_RDWR);  // shut down, because later copies have this end of the stream, too
+  // closing is not enough, because later copies have this end of the stream, too
+  ::shutdown(copy.descriptor, SHUT_RDWR);
   ::close(copy.descriptor);
   int status = 0;
   while (::waitpid(copy.process, &status, 0) < 0 && errno == EINTR) {
@@ -92,7 +94,7 @@ std::vector<bool> wait_to_read(const std::vector<int>& descriptors) {
 }
 
 ResourceUse resource_use() noexcept {
-  constexpr std::size_t kUnit = 1024;  // Linux counts in kilobytes
+  constexpr std::size_t kUnit = 1024;  // Linux reports kilobytes
   ResourceUse use;
   for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
     rusage usage{};

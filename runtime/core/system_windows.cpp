@@ -9,7 +9,7 @@
 #define WIN32_LEAN_AND_MEAN
 #define PSAPI_VERSION 2
 #include <windows.h>
-#include <psapi.h>  // must follow windows.h
+#include <psapi.h>  // this must follow windows.h
 // clang-format on
 
 #include "core/open_file.hpp"
@@ -77,7 +77,7 @@ double seconds_of(const FILETIME& time) {
 
 char32_t small_letter(char32_t letter) {
   if (letter == 0 || letter > 0xffff) return letter;
-  // A pointer below 0x10000 means one character.
+  // Windows treats a pointer below 0x10000 as one character.
   return static_cast<char32_t>(reinterpret_cast<std::uintptr_t>(
       ::CharLowerW(reinterpret_cast<LPWSTR>(static_cast<std::uintptr_t>(letter)))));
 }
@@ -119,8 +119,8 @@ std::FILE* create_file(const fs::path& path) {
 
 int descriptor_of(std::FILE* stream) { return ::_fileno(stream); }
 
-// Makes no further checks: only administrators make links on Windows, and the rights of a folder decide who
-// owns its files.
+// No further checks are needed. Only administrators can make links on Windows, and the rights of a folder
+// decide who owns its files.
 int open_own_file(const fs::path& folder, const fs::path& below, OwnFile use) {
   return open_by(folder / below, use == OwnFile::kRead ? _O_RDONLY : _O_WRONLY | _O_CREAT | _O_APPEND);
 }
@@ -132,7 +132,7 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::_commit(descriptor) == 0; }
 
-// Does not wait for folders and read-only files, because they cannot be opened.
+// Folders and read-only files cannot be opened here, so it does not wait for them.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(open_by(path, _O_RDWR));
   return !file.is_open() || wait_for_disk(file.get());
@@ -151,7 +151,7 @@ bool create_scratch_folder(std::string& name) {
   return false;
 }
 
-// Locks by the name that the folder has for all processes.
+// The name of the lock is the same for all processes that use the folder.
 FolderLock::FolderLock(const fs::path& folder) {
   std::error_code ignored;
   const std::size_t hash = std::hash<std::wstring>()(fs::weakly_canonical(folder, ignored).wstring());

@@ -1,4 +1,5 @@
-"""Times a fresh build without ccache, each object of it, and two incremental builds. Run by `scripts/bench build`."""
+"""Times a fresh build without ccache, each object of it, and two incremental builds. `scripts/bench build` runs it.
+"""
 import argparse
 import collections
 import json
@@ -23,7 +24,8 @@ def timed(*words):
 
 
 def objects():
-    """Seconds of each compiled source and precompiled header, from ninja's log (milliseconds, last run counts)."""
+    """Returns the seconds of each compiled source and precompiled header, from the last run in ninja's log
+    (milliseconds)."""
     found = {}
     for line in (BUILD / ".ninja_log").read_text().splitlines()[1:]:
         start, end, _, output, _ = line.split("\t")
@@ -39,7 +41,7 @@ def changed_command(jobs):
 
 
 def changed_fit():
-    """texremap runs fits as data: from a fit in a file to the first conversion by it."""
+    """Times how texremap runs fits as data: from reading a file to the first conversion."""
     fit = SOURCE / "fits" / "mitsuba_ward_to_mitsuba_as.json"
     return timed(BUILD / "bin" / "texremap", "convert", "--converters", fit, "--from", "mitsuba/ward", "--to", "mitsuba/as",
                  "--roughness", "0.3", "--specular", "0.5")

@@ -1,11 +1,11 @@
-"""This program measures how fast the generated headers of BRDFs convert texels, as a share of memcpy's speed, and how long a
-compiler takes for one header. `scripts/bench headers` runs it.
+"""This program measures how fast the generated headers of BRDFs convert texels, as a fraction of memcpy's speed, and
+how long a compiler takes for one header. `scripts/bench headers` runs it.
 
-Each header is compiled alone, as an engine compiles it, and linked into one library for a compiler and its flags. It converts four
-planes of 2^20 floats out of place: widths and three channels, at random over the whole measured range. Exponents are uniform in the
-alpha of the same lobe, so that they reach both ends of their range. In turns with the header, memcpy copies the same four planes in
-the same process. Both times are the best of the rounds. These are spread over the whole run, because other programs slow a machine
-down for seconds at a time.
+Each header is compiled separately, as in an engine, and linked into one library for a compiler and its flags. It
+converts four planes of 2^20 floats out of place: widths and three channels, at random over the whole measured range.
+Exponents are uniform in the alpha of the same lobe, so that they reach both ends of their range. memcpy copies the
+same four planes in the same process, in turns with the header. Both times are the best of the rounds. The rounds are
+spread over the whole run, because other programs slow a machine down for seconds at a time.
 """
 import argparse
 import concurrent.futures
@@ -25,8 +25,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 STANDARD = "-std=c++17"
 FLAGS = ["-O3", "-O3 -march=x86-64-v3"]
 TEXELS = 1 << 20
-PASSES, ROUNDS = 5, 4  # passes over all headers; rounds of a header in each
-COMPILE_FLAGS, COMPILE_ROUNDS, COMPILE_STEP = "-O2", 3, 10  # every tenth header
+PASSES, ROUNDS = 5, 4  # passes over all headers, and rounds for each header in a pass
+COMPILE_FLAGS, COMPILE_ROUNDS, COMPILE_STEP = "-O2", 3, 10  # compiles every tenth header
 SLOWEST = 10
 
 CONVERTER = """
@@ -110,7 +110,7 @@ std::size_t planes(std::size_t count, const C::Texels<const float>& in, const C:
 
 
 def texts():
-    """The text of each header of BRDFs by its id."""
+    """Returns the text of each header of BRDFs, keyed by its id."""
     headers = {path.stem: path.read_text() for path in sorted((ROOT / "generated").glob("*.hpp"))}
     return {identifier: text for identifier, text in headers.items() if "struct Form {" in text}
 
@@ -128,7 +128,7 @@ def compile_file(compiler, flags, source, target):
 
 
 def library(compiler, flags, identifiers, folder):
-    """One library with all converters, each compiled alone."""
+    """Builds one library with all converters, each compiled separately."""
     folder.mkdir()
     sources = {"measure": ROUNDS_OF_ONE, **{identifier: CONVERTER % {"id": identifier} for identifier in identifiers}}
     for name, text in sources.items():
@@ -141,7 +141,7 @@ def library(compiler, flags, identifiers, folder):
 
 
 def measure_once(converters, identifier, is_exponent, seconds):
-    """Some rounds of memcpy and of the header, whose best times so far are in `seconds`."""
+    """Runs some rounds of memcpy and of the header. `seconds` holds their best times so far."""
     ends = (ctypes.c_float * 3)()
     getattr(converters, f"domain_{identifier}")(ends)
     converters.measure.restype = ctypes.c_size_t
@@ -152,7 +152,7 @@ def measure_once(converters, identifier, is_exponent, seconds):
 
 
 def measure_speeds(builds, headers):
-    """A result for each compiler with flags."""
+    """Returns a result for each compiler and its flags."""
     with tempfile.TemporaryDirectory() as folder:
         libraries = []
         for compiler, flags in builds:
@@ -185,7 +185,7 @@ def compile_seconds(compiler, source):
 
 
 def measure_compiling(compiler, identifiers):
-    """Seconds that a file with one header takes, without those of an empty file."""
+    """Returns the seconds that a file with one header takes, minus the seconds of an empty file."""
     note(f"time {compiler} {COMPILE_FLAGS}")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -216,7 +216,8 @@ def print_compiling(result):
 
 
 def joined(words):
-    """The words of the command line with `--flags=-O2` for `--flags -O2`: argparse reads a separate -O2 as an option."""
+    """Returns the command line with `--flags=-O2` instead of `--flags -O2`, because argparse reads a separate -O2 as
+    an option."""
     words = list(words)
     while "--flags" in words[:-1]:
         at = words.index("--flags")

@@ -1,6 +1,6 @@
-"""Completion for bash, zsh and fish from the tables that the programs print by --help-table.
+"""Makes completion for bash, zsh and fish from the tables that the programs print by --help-table.
 
-What follows an option is one of: its choices, a name that the program lists, files, or nothing that could be known.
+An option can be followed by one of its choices, a name that the program lists, a file, or something that is unknown.
 """
 import re
 
@@ -24,7 +24,7 @@ def names_of(option):
 
 
 def short(option):
-    """The first clause of a description."""
+    """Returns the first clause of a description."""
     return re.split(r"\. |; | \(|, e\.g\.", option["description"].replace("\n", " "))[0]
 
 
@@ -33,7 +33,7 @@ def choices_of(option):
 
 
 def listed_by(table):
-    """The kind of names that the arguments of a command may be, if the program lists them."""
+    """Returns the kind of names that the arguments of a command may be, if the program lists them."""
     return next((LISTED_ARGUMENTS[a["names"]] for a in table["arguments"] if a["names"] in LISTED_ARGUMENTS), None)
 
 
@@ -134,6 +134,6 @@ def fish(table):
 
 
 def completions(table):
-    """Path below a folder of completions -> text."""
+    """Returns the text of each file, keyed by its path below a folder of completions."""
     name = table["name"]
     return {f"bash/{name}": bash(table), f"zsh/_{name}": zsh(table), f"fish/{name}.fish": fish(table)}

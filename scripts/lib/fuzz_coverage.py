@@ -1,4 +1,5 @@
-"""Runs fuzz targets over their committed inputs, and prints how many lines of their readers these run; see scripts/fuzz.
+"""Runs fuzz targets on their committed inputs, and prints how many lines of the code under test they reach; see
+scripts/fuzz.
 
 Usage: fuzz_coverage.py NAME..., in the root of the repository, after a build of the preset `coverage`
 """
@@ -10,11 +11,12 @@ import tempfile
 from pathlib import Path
 
 BUILD = Path("build/coverage")
-GOAL = 85.0  # per cent of the lines of all readers
+GOAL = 85.0  # per cent of the lines of all files under test
 
 
 def readers():
-    """Target -> files, as tests/fuzz/readers.txt has them. An indented line goes on with the target before it."""
+    """Returns the files of each target, as in tests/fuzz/readers.txt. An indented line continues the target before
+    it."""
     files = {}
     for line in Path("tests/fuzz/readers.txt").read_text().splitlines():
         if line.startswith("#"):
@@ -27,12 +29,13 @@ def readers():
 
 
 def inputs_of(name):
-    """The committed ones, so everybody measures the same."""
+    """Returns the committed inputs, so that everybody measures the same."""
     return sorted((Path("tests/fuzz/corpus") / name).iterdir())
 
 
 def run(name, inputs, folder):
-    """Runs the target over inputs. If one ends it, runs each by itself: the profile of that one is lost. Returns which these are."""
+    """Runs the target on inputs. If an input ends the target, runs each input separately, because a failing run loses
+    its profile. Returns the failing inputs."""
     program, profile = BUILD / "bin" / f"{name}_fuzz", folder / f"{name}-%m.profraw"
     environment = dict(os.environ, LLVM_PROFILE_FILE=str(profile))
     options = [f"{program}", "-timeout=60", "-rss_limit_mb=4096", f"-artifact_prefix={folder}/"]
@@ -45,7 +48,7 @@ def run(name, inputs, folder):
 
 
 def lines_of(files, programs, profile):
-    """Lines that were run, and all lines, of files of the sources."""
+    """Returns how many lines of the source files were run, and how many there are."""
     objects = [word for program in programs[1:] for word in ("-object", program)]
     report = subprocess.run(["llvm-cov", "export", "-summary-only", "-instr-profile", profile, programs[0], *objects,
                              *(str(Path(file).resolve()) for file in files)], check=True, capture_output=True)

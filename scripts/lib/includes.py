@@ -1,4 +1,4 @@
-"""The folders of HACKING.md, their files and what these include."""
+"""Reads the folders of HACKING.md, their files, and what the files include."""
 import functools
 import re
 from pathlib import Path
@@ -15,7 +15,7 @@ def sources():
 
 
 def included(path):
-    """Paths of the project's own files that `path` includes."""
+    """Returns the paths of the project's own files that `path` includes."""
     for name in re.findall(r'^#include "([^"]+)"', path.read_text(), re.MULTILINE):
         candidates = [path.parent / name] + [ROOT / folder / name for folder in INCLUDE_FOLDERS]
         yield from [c.resolve() for c in candidates if c.is_file()][:1]
@@ -23,14 +23,14 @@ def included(path):
 
 @functools.cache
 def listed_folders():
-    """Folder -> what HACKING.md says of it, in its order."""
+    """Returns the folders in the order of HACKING.md, with their descriptions."""
     listed = re.search(r"<!-- folders -->\n```\n(.*?)```", (ROOT / "HACKING.md").read_text(), re.DOTALL)
     rows = [line.split(None, 1) for line in listed.group(1).splitlines() if line.strip()]
     return {name.rstrip("/"): "".join(text).strip() for name, *text in rows}
 
 
 def folder(path):
-    """The deepest folder of the list that holds the file, or the file's own folder."""
+    """Returns the deepest folder of the list that contains the file, or the file's own folder."""
     own = path.relative_to(ROOT).parent
     return next((f for f in map(str, [own, *own.parents]) if f in listed_folders()), str(own))
 

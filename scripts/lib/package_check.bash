@@ -25,7 +25,8 @@ build_variant() {
 
 program_of() { ls "build/check/$1/bin/$2"{,.exe} 2>/dev/null | head -n 1; }
 
-# check_bits, check_tests and check_commands NAME EMULATOR run what was built by the words of EMULATOR.
+# check_bits, check_tests and check_commands NAME EMULATOR run the built programs with the emulator. EMULATOR may have
+# several words.
 # shellcheck disable=SC2086 # the emulator is words
 check_bits() { tests/bits/check.bash $2 "$(program_of "$1" bits)"; }
 
@@ -80,7 +81,7 @@ package_check() {
       -DCMAKE_EXE_LINKER_FLAGS="-nostdlib++ -L$lib/lib -lc++ -lc++abi" || status=1
   fi
   check_cross aarch64 aarch64-linux-gnu-g++ qemu-aarch64-static "bits machine_test" -DREMAP_BUILD_PROGRAMS=OFF || status=1
-  # Debian has wine64 in no folder of programs. Files and messages of wine itself are discarded.
+  # Debian installs wine64 outside of PATH. Files and messages of wine itself are discarded.
   export WINEPREFIX=$PWD/build/check/wine WINEDEBUG=-all
   local wine=wine64
   type -P wine64 >/dev/null || [[ ! -x /usr/lib/wine/wine64 ]] || wine=/usr/lib/wine/wine64

@@ -97,7 +97,7 @@ package_wheel() {
   rm -rf build/wheel/raw
   local python
   for python in "${pythons[@]}"; do
-    # The wheel of 3.12 also serves 3.13.
+    # The wheel of 3.12 is also used for 3.13.
     [[ $python == *3.13 && " ${pythons[*]} " == *3.12* ]] || step "A wheel by $python" make_wheel "$python"
   done
   step "What the wheels need" audit_wheels

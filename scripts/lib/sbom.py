@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what a release consists of, and the libraries in it, as SPDX 2.3 in JSON, to standard output.
+"""Lists what a release consists of, and the libraries in it, as SPDX 2.3 in JSON on standard output.
 
 Usage: scripts/lib/sbom.py VERSION FOLDER
 
-FOLDER holds the archive of the sources and packages. Libraries are those that the packages themselves name (Depends of Debian,
-Requires-Dist of Python, dependencies of npm), and those that are compiled in (packages/debian/compiled_in.txt). The time is SOURCE_DATE_EPOCH; the
-same packages give the same bytes.
+FOLDER contains the archive of the sources, and packages. The libraries are those that the packages themselves list
+(Depends of Debian, Requires-Dist of Python, dependencies of npm), and those that are compiled in
+(packages/debian/compiled_in.txt). The time is SOURCE_DATE_EPOCH. The same packages give the same bytes.
 """
 import datetime
 import hashlib
@@ -28,14 +28,14 @@ IN_LIBRARY = [package for package, where in COMPILED_IN if where == "library"]
 
 
 def installed(package):
-    """(version, architecture) of a Debian package of this machine."""
+    """Returns (version, architecture) of a Debian package on this machine."""
     shown = subprocess.run(["dpkg-query", "--show", "--showformat=${Version} ${Architecture}\n", package],
                            capture_output=True, text=True)
     return shown.stdout.splitlines()[0].split() if shown.stdout else (None, None)
 
 
 def pinned(package):
-    """The version of a Python package that makes wheels."""
+    """Returns the version of a Python package that makes wheels."""
     return re.search(rf"^{package}==(\S+)$", (PACKAGES / "python/pinned.txt").read_text(), re.MULTILINE)[1]
 
 
@@ -61,7 +61,7 @@ def debian(package):
 
 
 def links_of(path):
-    """[(relationship, library)] of a package."""
+    """Returns [(relationship, library)] of a package."""
     if path.suffix == ".deb":
         control = subprocess.run(["dpkg-deb", "--field", path], check=True, capture_output=True, text=True).stdout
         fields = Parser().parsestr(control)
@@ -72,7 +72,7 @@ def links_of(path):
         with zipfile.ZipFile(path) as wheel:
             metadata = next(name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
             fields = Parser().parsestr(wheel.read(metadata).decode())
-        # Packages of an extra ("; extra == ...") do not belong to the package.
+        # Packages that only an extra needs ("; extra == ...") are not dependencies.
         needed = [re.match(r"[\w.-]+", line)[0] for line in fields.get_all("Requires-Dist", []) if "extra ==" not in line]
         return [("STATIC_LINK", debian(name)) for name in IN_COMMANDS] + [("STATIC_LINK", library("pypi", "nanobind", pinned("nanobind")))] + [
             ("DEPENDS_ON", library("pypi", name, None)) for name in needed]

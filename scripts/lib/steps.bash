@@ -4,10 +4,10 @@
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$repository"
 log=/dev/null
-cmake_options=()  # of build_preset
+cmake_options=()  # options for build_preset
 last_seconds=0.0
 
-# open_log NAME makes steps write to build/logs/NAME.log from here on.
+# open_log NAME makes all following steps write to build/logs/NAME.log.
 open_log() {
   log=$repository/build/logs/$1.log
   mkdir -p "${log%/*}"
@@ -22,7 +22,7 @@ seconds_since() {
   echo "$((tenths / 10)).$((tenths % 10))"
 }
 
-# step TITLE COMMAND [ARGUMENT...] runs a step, and leaves its time in last_seconds.
+# step TITLE COMMAND [ARGUMENT...] runs a step, and stores its time in last_seconds.
 step() {
   local -r title=$1 start=$(microseconds)
   local status=0
@@ -48,7 +48,8 @@ save_output() {
   "$@" >"$file"
 }
 
-# json_number FILE KEY [N] prints the Nth number (default: first) of that name. Each must be on a separate line.
+# json_number FILE KEY [N] prints the Nth number (default: first) of the key KEY. Each number must be on a separate
+# line.
 json_number() {
   sed -n 's/.*"'"$2"'": *\(-\{0,1\}[0-9][0-9.eE+-]*\).*/\1/p' "$1" | sed -n "${3:-1}p"
 }
@@ -78,7 +79,8 @@ skip_reasons() {
   sed -n 's/^skipped: //p' "$1" | sort | uniq -c | sort -rn | sed '1i Skipped (tests, reason):'
 }
 
-# count_tests LOG prints "PASSED FAILED SKIPPED" of the last run of tests in a log. No summary means one failure.
+# count_tests LOG prints "PASSED FAILED SKIPPED" of the last run of tests in a log. A log without a summary is treated
+# as one failure.
 count_tests() {
   local summary
   summary=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$1" | tail -n 1)

@@ -1,4 +1,5 @@
-// The benchmarks by subject: each registers its runs, and after them makes its tables of their medians.
+// This file declares the benchmarks by subject. Each subject registers its runs, and afterwards makes its
+// tables from their medians.
 #pragma once
 
 #include <array>
@@ -11,19 +12,19 @@
 
 namespace remap_bench {
 
-// Planar width (0.01 to 0.99) and RGB (0.002 to 0.2, inside the domain of every table), and room for the
-// same.
+// A Maps holds planar maps of width (0.01 to 0.99) and RGB (0.002 to 0.2, inside the domain of every table),
+// and maps for the results.
 struct Maps {
   explicit Maps(std::size_t texels);
   std::size_t texels;
   std::array<std::vector<float>, 4> in, out;
 };
 
-// 4096^2 texels: far beyond every cache. And 64^2, which stay in one.
+// large_maps() have 4096^2 texels, far more than any cache holds. small_maps() have 64^2, which fit into one.
 Maps& large_maps();
 Maps& small_maps();
 
-// A benchmark of rows of texels against memcpy on the same maps, `large` or `small`.
+// Compares a benchmark of rows of texels with memcpy on the same maps, `large` or `small`.
 Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
              const std::string& maps);
 

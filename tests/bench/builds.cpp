@@ -4,7 +4,7 @@
 
 namespace remap_bench {
 
-// What CMake built.
+// These declare the functions that CMake built.
 #define REMAP_BUILD(Function, name, code, flags) std::remove_pointer_t<Function> name;
 #include "builds.inc"
 #undef REMAP_BUILD
@@ -21,7 +21,7 @@ bool can_run(const std::string& flags) {
   return flags == "o2" || flags == "o3";
 }
 
-// Those of one kind that this processor can run.
+// Returns the builds of one kind that this processor can run.
 template <typename Function>
 std::vector<Build<Function>> runnable() {
   std::vector<Build<Function>> found;

@@ -1,4 +1,5 @@
-// Shipped converters as texremap runs them, as data, against their compiled headers.
+// This file measures shipped converters, which texremap interprets as data, against the compiled headers of
+// the same converters.
 #include <algorithm>
 
 #include "bench/bench.hpp"
@@ -8,7 +9,8 @@
 namespace remap_bench {
 namespace {
 
-// The instruction set that a header compiled with `flags` has; none for -O2, which nobody would compare.
+// Returns the instruction set of a header compiled with `flags`, or nothing for -O2, which nobody would
+// compare.
 std::optional<remap::InstructionSet> set_of(const std::string& flags) {
   if (flags == "o3") return remap::InstructionSet::kBaseline;
   if (flags == "avx2") return remap::InstructionSet::kAvx2;
@@ -22,7 +24,7 @@ struct Pair {
   std::string flags;
 };
 
-// The headers of shipped converters among the builds, each with its converter.
+// Returns the headers of shipped converters among the builds, each with its converter.
 std::vector<Pair> pairs() {
   std::vector<Pair> pairs;
   for (const Build<Pass>& build : pass_builds())

@@ -1,11 +1,11 @@
-// How long users wait for the compiler's own work, on all cores.
+// This file measures how long users wait for the compiler's own work, on all cores.
 #include "bench/bench.hpp"
 #include "measure/sweep.hpp"
 
 namespace remap_bench {
 namespace {
 
-// A table of the built-in renderer, as users sweep it: 30 x 30 samples, pictures of 512^2.
+// Returns a table of the built-in renderer, of the size that users sweep: 30 x 30 samples, pictures of 512^2.
 remap::Table sweep_table(const std::string& objective, const std::string& source, const std::string& target) {
   const auto renderer = remap::make_builtin_renderer();
   remap::SweepOptions options;

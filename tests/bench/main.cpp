@@ -1,6 +1,6 @@
-// What the tools and the code they generate cost, as ratios to rivals in the same run. Never passes or fails;
-// scripts/bench runs it. `--json` prints the tables as JSON; other arguments are Google Benchmark's, such as
-// --benchmark_filter=data.
+// This program measures what the tools and their generated code cost, as ratios to rivals in the same run. It
+// never passes or fails. scripts/bench runs it. `--json` prints the tables as JSON. Other arguments belong to
+// Google Benchmark, such as --benchmark_filter=data.
 #include <cstring>
 #include <string>
 #include <vector>

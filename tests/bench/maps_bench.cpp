@@ -1,5 +1,5 @@
-// convert_maps() on one core: loading, the search for invalid values, conversion, storing. Its rival is the
-// converter alone over rows of the same length.
+// This file measures convert_maps() on one core: loading, the search for invalid values, conversion, storing.
+// Its rival is only the converter, over rows of the same length.
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -20,7 +20,7 @@ const remap::Converter& ward_to_as() {
   throw std::logic_error("no converter mitsuba_ward_to_mitsuba_as");
 }
 
-// Width and RGB in four planes of floats.
+// Describes width and RGB in four planes of floats.
 remap::MapConversion planes(Maps& maps) {
   remap::MapConversion conversion;
   for (std::size_t c = 0; c < 4; ++c) {
@@ -31,7 +31,7 @@ remap::MapConversion planes(Maps& maps) {
   return conversion;
 }
 
-// RGB and, in alpha, the width.
+// Describes RGB with the width in alpha.
 remap::MapConversion interleaved(std::byte* in, std::byte* out, remap::PixelType type,
                                  remap::Transfer transfer) {
   const auto texel = static_cast<std::ptrdiff_t>(4 * remap::byte_count(type));
@@ -57,7 +57,7 @@ void add_maps_benchmark(const std::string& name, const std::function<remap::MapC
                 });
 }
 
-// Values of all bytes, evenly.
+// Returns bytes of all values, evenly distributed.
 std::vector<std::byte>& random_bytes() {
   static std::vector<std::byte> bytes = [] {
     std::mt19937 random(1);

@@ -1,4 +1,5 @@
-// One build of the pass of one header of whole materials; names and flags come from CMake, as in pass.cpp.
+// This file compiles the pass of one header of whole materials for one set of flags. Names and flags come
+// from CMake, as in pass.cpp.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -15,7 +16,7 @@ namespace remap_bench {
 
 std::size_t BENCH_NAME(std::size_t count, const float* const* in, float* const* out) {
   using converter = BENCH_NAMESPACE::BENCH_HEADER;
-  converter::InputTexels<const float> from{};  // pointers, then strides of 1
+  converter::InputTexels<const float> from{};  // pointers first, then strides of 1
   converter::OutputTexels<> to{};
   std::memcpy(static_cast<void*>(&from), in, sizeof(converter::Input) / sizeof(float) * sizeof(float*));
   std::memcpy(static_cast<void*>(&to), out, sizeof(converter::Output) / sizeof(float) * sizeof(float*));

@@ -1,5 +1,5 @@
-// The header of a network of 6 x 300 x 4 (Sztrajman et al. 2019, section 8) against Eigen's products of such
-// matrices, which leave out biases and activations.
+// This file measures the header of a network of 6 x 300 x 4 (Sztrajman et al. 2019, section 8) against
+// Eigen's products of such matrices, which omit biases and activations.
 #include <random>
 
 #include "bench/bench.hpp"
@@ -34,7 +34,7 @@ std::string products_name(const std::string& flags, std::size_t batch, bool texe
   return "eigen_" + flags + "/" + std::to_string(batch) + (texels_innermost ? "/columns" : "/rows");
 }
 
-// The batch and layout that suit Eigen best.
+// Returns the batch and layout that are fastest with Eigen.
 std::string best_products(const Medians& medians, const std::string& flags) {
   std::string best = products_name(flags, kBatches[0], true);
   for (const std::size_t batch : kBatches)

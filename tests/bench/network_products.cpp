@@ -1,5 +1,6 @@
-// One build of Eigen's products of the size of a network, without biases and activations; names and flags
-// come from CMake. Eigen gets a namespace of its own for the reason given in pass.cpp.
+// This file multiplies matrices of the size of a network by Eigen, without biases and activations. It is
+// compiled once for each set of flags. Names and flags come from CMake. Eigen gets its own namespace for the
+// reason given in pass.cpp.
 #define Eigen BENCH_NAMESPACE
 #include <Eigen/Core>
 #undef Eigen
@@ -12,7 +13,8 @@ namespace {
 namespace eigen = BENCH_NAMESPACE;
 constexpr int kInputs = 6, kHidden = 300, kOutputs = 4;
 
-// Planar rows of texels are the columns of a matrix of texels x values, or the rows of its transpose.
+// The planar rows of texels are the columns of a matrix of texels x values. With the other order they are the
+// rows of its transpose.
 template <int Order>
 using Matrix = eigen::Matrix<float, eigen::Dynamic, eigen::Dynamic, Order>;
 template <int Order>
@@ -37,7 +39,7 @@ void BENCH_NAME(const NetworkProducts& products, std::size_t texels, const float
     }
     return;
   }
-  // A texel is a column: its hidden units lie side by side.
+  // If a texel is a column, its hidden units are adjacent in memory.
   const eigen::Map<const Matrix<eigen::RowMajor>> first(products.hidden_weights, kHidden, kInputs);
   const eigen::Map<const Matrix<eigen::RowMajor>> last(products.output_weights, kOutputs, kHidden);
   Matrix<eigen::ColMajor> hidden(kHidden, count);

@@ -1,5 +1,6 @@
-// One build of the pass of one header; BENCH_NAME, BENCH_HEADER and the flags come from CMake. The header's
-// functions are inline: a namespace of its own keeps the linker from merging the builds.
+// This file compiles the pass of one header for one set of flags. BENCH_NAME, BENCH_HEADER and the flags come
+// from CMake. The functions of the header are inline, so each build needs its own namespace. Otherwise the
+// linker would merge the builds.
 #include <cstdint>
 #include <cstring>
 

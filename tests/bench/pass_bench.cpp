@@ -1,4 +1,4 @@
-// Passes of headers, over planes and over interleaved texels.
+// This file measures passes of headers, over planes and over interleaved texels.
 #include <cstring>
 #include <memory>
 #include <random>
@@ -21,7 +21,7 @@ void convert(Maps& maps, Pass pass) {
                                 out[0].data(), {out[1].data(), out[2].data(), out[3].data()}));
 }
 
-// The same texels interleaved: RGBA whose alpha is the width, or RGB.
+// A TexelMaps holds the texels of Maps interleaved: RGBA with the width in alpha, or RGB.
 struct TexelMaps {
   explicit TexelMaps(const Maps& maps) : out(4 * maps.texels) {
     for (std::size_t i = 0; i < maps.texels; ++i) {

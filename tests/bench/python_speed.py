@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""The speed of the Python package: python_speed.py MAP_SPEED [SIDE].
+"""Measures the speed of the Python package: python_speed.py MAP_SPEED [SIDE].
 
-As shares of one core of the C++ library, whose program MAP_SPEED is (tests/bits/map_speed.cpp; it converts 2048 x 2048
-floats): the same maps, which must give the same bits. And for maps of SIDE x SIDE (default 4096), how many times as fast as
-NumPy with the same polynomials on one thread. Times are those of the processor; the fastest of several passes counts.
+It prints the speed as a fraction of one core of the C++ library. MAP_SPEED is the program of the library
+(tests/bits/map_speed.cpp), which converts 2048 x 2048 floats. Both convert the same maps and must give the same bits.
+For maps of SIDE x SIDE (default 4096), it also compares with NumPy, which evaluates the same polynomials on one
+thread. Times are processor times of the fastest of several passes.
 """
 
 import json
@@ -21,7 +22,7 @@ PASSES = 5
 
 
 def values(count):
-    """A Weyl sequence of 24 bits, as the program has it."""
+    """Returns the Weyl sequence of 24 bits that MAP_SPEED uses."""
     return ((np.arange(count, dtype=np.uint32) * np.uint32(0x9E3779B1)) >> 8).astype(np.float32) * np.float32(2**-24)
 
 
@@ -52,7 +53,8 @@ def maps(side):
 
 
 def polynomial(form, alpha, specular):
-    """Horner's rule over whole arrays, in place: sums of c[j][i] (alpha - start)^i (specular - middle)^j."""
+    """Evaluates sums of c[j][i] (alpha - start)^i (specular - middle)^j by Horner's rule over whole arrays, in place.
+    """
     x, y = alpha - np.float32(form["start"]), specular - np.float32(form["middle"])
     total = np.zeros_like(specular)
     row = np.empty_like(alpha)

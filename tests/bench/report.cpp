@@ -7,7 +7,7 @@
 namespace remap_bench {
 namespace {
 
-// Three digits, without an exponent.
+// Returns three digits, without an exponent.
 std::string digits(double value) {
   char text[32];
   const int decimals =

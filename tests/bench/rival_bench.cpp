@@ -1,4 +1,4 @@
-// What else could convert the same maps: a 3-D table by OpenColorIO.
+// This file measures a rival that could convert the same maps: a 3-D table by OpenColorIO.
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
 
@@ -12,8 +12,9 @@ namespace {
 #ifdef REMAP_BENCH_OPENCOLORIO
 namespace ocio = OCIO_NAMESPACE;
 
-// An RGB image of as many texels as the large maps, and a table that is no identity. Three floats a texel and
-// four are both measured, as the optimized processor of one thread takes them.
+// A Colors holds an RGB image with as many texels as the large maps, and a table that changes colors. Three
+// and four floats per texel are both measured, in the form that OpenColorIO's optimized processor accepts on
+// one thread.
 struct Colors {
   explicit Colors(long channel_count) : channels(channel_count) {
     const Maps& maps = large_maps();
@@ -52,7 +53,7 @@ ocio::ConstCPUProcessorRcPtr table_processor() {
 
 std::string table_name(long channels) { return "ocio/" + std::to_string(channels); }
 
-// The layout that suits OpenColorIO best.
+// Returns the layout that is faster with OpenColorIO.
 std::string faster_table(const Medians& medians) {
   const auto seconds = [&](long channels) { return medians.seconds(table_name(channels)).value_or(1e300); };
   return table_name(seconds(3) < seconds(4) ? 3 : 4);

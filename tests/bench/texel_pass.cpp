@@ -1,4 +1,5 @@
-// One build of a header over interleaved texels; names and flags come from CMake, as in pass.cpp.
+// This file compiles a header for interleaved texels, for one set of flags. Names and flags come from CMake,
+// as in pass.cpp.
 #include "bench/builds.hpp"
 
 #define BENCH_TEXT(name) #name

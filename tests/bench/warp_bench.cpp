@@ -1,4 +1,5 @@
-// Appearance warps: the fit from two texture sets and strokes, and the pass of the compiled table.
+// This file measures appearance warps: the fit from two texture sets and strokes, and the pass of the
+// compiled table.
 #include "bench/bench.hpp"
 #include "stages/kernels.hpp"
 #include "support/warp_sets.hpp"
@@ -10,7 +11,7 @@ namespace {
 constexpr std::size_t kSize = 512;
 constexpr std::size_t kTexels = kSize * kSize;
 
-// A set with a known answer, its warp, and its source as rows.
+// A WarpCase holds a set with a known answer, its warp, and its source as rows.
 struct WarpCase {
   explicit WarpCase(remap::WarpSet made)
       : set(std::move(made)), strokes(remap::strokes_of(set, 0)), packed(remap::packed(fit().compiled)) {
@@ -28,7 +29,7 @@ struct WarpCase {
   std::array<std::vector<float>, remap::kWarpParameters> in, out;
 };
 
-// Two latents, and three.
+// leaf() has two latent parameters, the next one three.
 WarpCase& leaf() {
   static WarpCase made(remap::leaf_set(kSize));
   return made;

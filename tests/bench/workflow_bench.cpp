@@ -1,4 +1,4 @@
-// Headers of workflow conversions: how fast.
+// This file measures how fast headers of workflow conversions are.
 #include <cstring>
 #include <random>
 
@@ -9,7 +9,7 @@
 namespace remap_bench {
 namespace {
 
-constexpr std::size_t kLargeTexels = 2048 * 2048;  // beyond every cache
+constexpr std::size_t kLargeTexels = 2048 * 2048;  // more than any cache holds
 constexpr std::size_t kSmallTexels = 4096;
 
 template <typename Value, typename Rows>
@@ -19,7 +19,8 @@ auto pointers(Rows& rows) {
   return all;
 }
 
-// Rows of a metallic material, of the specular one that it is, and of what comes back.
+// A MaterialMaps holds rows of a metallic material, rows of the equivalent specular material, and rows for
+// the result of converting it back.
 struct MaterialMaps {
   std::array<std::vector<float>, 5> metallic, back;
   std::array<std::vector<float>, 7> specular;
@@ -60,7 +61,7 @@ void convert(const Build<MaterialPass>& build, std::size_t texels) {
     benchmark::DoNotOptimize(build.function(texels, metallic.data(), specular_out.data()));
 }
 
-// As many bytes read and written as by a conversion: six rows.
+// Copies as many bytes as a conversion reads and writes: six rows.
 void copy_rows() {
   MaterialMaps& m = maps();
   for (std::size_t r = 0; r < 5; ++r)
@@ -80,7 +81,7 @@ void add_workflows() {
   for (const Build<MaterialPass>& build : material_builds()) {
     const std::string name = build.code + "_" + build.flags;
     add_benchmark(name + "/small", kSmallTexels, 7, [build] { convert(build, kSmallTexels); });
-    if (is_network(build.code)) continue;  // in network_section(), beside what it is compared with
+    if (is_network(build.code)) continue;  // network_section() measures these against Eigen
     add_benchmark(name + "/materials", kLargeTexels, 15, [build] { convert(build, kLargeTexels); });
   }
 }

@@ -1,6 +1,6 @@
-// Prints a hash of what each conversion of the library makes of 65,536 texels, a line a case, on every
-// instruction set that the processor has. bits.txt has the lines that every compiler and every machine must
-// give.
+// This program prints a hash of the result of each conversion of the library, over 65,536 texels, on every
+// instruction set of the processor, one line per case. Every compiler and every machine must print the lines
+// in bits.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ constexpr std::size_t kTexels = 65536;
 constexpr std::size_t kMostRows = 9;
 using FloatRow = std::vector<float>;
 
-// SplitMix64 (G. Steele, D. Lea, C. Flood, 2014).
+// RandomNumbers is SplitMix64 (G. Steele, D. Lea, C. Flood, 2014).
 class RandomNumbers {
  public:
   std::uint64_t next() {
@@ -40,7 +40,8 @@ class RandomNumbers {
   std::uint64_t state_ = 44;
 };
 
-// Most values are in 0 to 1, one in eight is any float at all, one in eight is special.
+// Returns a value between 0 and 1 in most cases. One in eight is an arbitrary float, and one in eight is a
+// special value.
 float random_value(RandomNumbers& random) {
   constexpr std::array kSpecial = {0.0f,
                                    -0.0f,
@@ -78,11 +79,11 @@ std::vector<FloatRow> random_rows() {
   return rows;
 }
 
-// FNV-1a of 64 bits (G. Fowler, L. Noll, P. Vo) over whole numbers.
+// Hash is FNV-1a of 64 bits (G. Fowler, L. Noll, P. Vo) over integers.
 class Hash {
  public:
   void add(std::uint64_t number) { hash_ = (hash_ ^ number) * 0x100000001b3u; }
-  // Standards leave sign and payload of NaN open.
+  // Standards do not fix the sign and payload of NaN, so all NaNs are hashed alike.
   void add(const FloatRow& row) {
     for (const float value : row)
       add(std::isnan(value) ? 0x7fc00000u : __builtin_bit_cast(std::uint32_t, value));
@@ -97,7 +98,7 @@ void print(const std::string& name, std::uint64_t hash) {
   std::printf("%016llx %s\n", static_cast<unsigned long long>(hash), name.c_str());
 }
 
-// One line if the hashes of all sets are equal, else one a set.
+// Prints one line if the hashes of all instruction sets are equal, otherwise one line per set.
 void print_sets(const std::string& name, const std::function<std::uint64_t(InstructionSet)>& hash_of) {
   const std::uint64_t baseline = hash_of(InstructionSet::kBaseline);
   print(name, baseline);
@@ -136,7 +137,7 @@ void print_converters(const std::vector<FloatRow>& random) {
                [&](InstructionSet set) { return hash_of(*shipped_converters(set)[i], random); });
 }
 
-// Of all workflows that share a BRDF.
+// Converts between all workflows that have the same BRDF.
 void print_workflows(const std::vector<FloatRow>& random) {
   for (const WorkflowModel& source : workflow_models())
     for (const WorkflowModel& target : workflow_models()) {
@@ -170,7 +171,7 @@ void print_pixel_types(const FloatRow& random) {
     const std::size_t size = byte_count(type.value);
     std::vector<std::byte> stored(kTexels * size);
     FloatRow loaded(kTexels);
-    FloatRow clean = random;  // floats and halves keep NaN as it is
+    FloatRow clean = random;  // floats and half floats keep NaN unchanged
     for (float& value : clean)
       if (std::isnan(value)) value = std::numeric_limits<float>::quiet_NaN();
     Hash hash;

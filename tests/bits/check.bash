@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# check.bash COMMAND...: what the program `bits` prints is the list of this folder. `check.bash --record COMMAND...` writes the list.
+# check.bash COMMAND... checks that the program `bits` prints the list in this folder.
+# check.bash --record COMMAND... writes the list.
 set -euo pipefail
 list=$(dirname "$0")/bits.txt
 if [[ $1 == --record ]]; then

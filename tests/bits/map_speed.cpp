@@ -1,5 +1,5 @@
-// map_speed [INSTRUCTIONS]: prints the speed of five converters over maps of floats in memory on one thread,
-// and a checksum of what they made: `SOURCE TARGET MTEXEL/S CHECKSUM`. packages/npm/bench.mjs compares the
+// map_speed [INSTRUCTIONS] prints the speed of five converters over maps of floats in memory on one thread,
+// and a checksum of the results: `SOURCE TARGET MTEXEL/S CHECKSUM`. packages/npm/bench.mjs compares the
 // package for node with it.
 #include <algorithm>
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::size_t kWidth = 2048, kHeight = 2048, kPasses = 5;
 
-// The values of bench.mjs: a Weyl sequence of 24 bits.
+// Returns the values that bench.mjs uses: a Weyl sequence of 24 bits.
 float value_at(std::size_t i) {
   return static_cast<float>((static_cast<std::uint32_t>(i) * 0x9e3779b1u) >> 8) * 0x1p-24f;
 }
 
 struct Made {
-  double seconds = std::numeric_limits<double>::infinity();  // of the fastest pass
+  double seconds = std::numeric_limits<double>::infinity();  // time of the fastest pass
   std::uint32_t checksum = 0;
 };
 
@@ -46,7 +46,7 @@ Made convert(const Converter& converter) {
   }
   Made made;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {
-    const std::clock_t start = std::clock();  // time of the processor
+    const std::clock_t start = std::clock();  // processor time
     convert_maps(converter, maps);
     made.seconds = std::min(made.seconds, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }

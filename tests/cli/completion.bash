@@ -1,11 +1,11 @@
-# What bash completes, by the words of the documentation; then that zsh and fish, where they are installed, can read theirs.
-# completion.bash SOURCES PROGRAMS
+# completion.bash SOURCES PROGRAMS checks what bash completes, by the words of the documentation. Then it checks that
+# zsh and fish can read their files, if they are installed.
 set -euo pipefail
 cd "$1"
 PATH=$2:$PATH
 faults=0
 
-# expect LINE WORDS: the words for the last one of a command line, whose other words bash has split at =.
+# expect LINE WORDS checks what bash offers for the last word of a command line. bash also splits words at =.
 expect() {
   local -a COMP_WORDS
   read -ra COMP_WORDS <<<"$1"
@@ -27,15 +27,15 @@ expect "texremap convert --to mitsuba/ward-" "mitsuba/ward-balanced mitsuba/ward
 expect "remapc sweep --source mitsuba/as-i" "mitsuba/as-ior"
 expect "remapc show mitsuba_ward_to_mitsuba_as_" "mitsuba_ward_to_mitsuba_as_sztrajman_2019"
 expect "remapc fit --model s" "svr"
-expect "texremap convert --roughness " ""      # files, which bash adds
-expect "texremap convert assets" ""            # files
+expect "texremap convert --roughness " ""      # bash itself adds files
+expect "texremap convert assets" ""            # bash itself adds files
 expect "texremap convert --threads 4 --qui" "--quiet"
 # Only the Python package has texremap usd.
 expect "texremap us" ""
 . packages/python/completions/bash/texremap
 expect "texremap us" "usd"
 expect "texremap usd --to " "openpbr preview metallic specular"
-expect "texremap usd -o " ""                   # files
+expect "texremap usd -o " ""                   # bash itself adds files
 expect "texremap usd --dr" "--dry-run"
 expect "texremap convert --qui" "--quiet"
 for shell in zsh fish; do

@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """Runs commands that must be refused and compares what a terminal then shows with the committed text.
 
-Usage: tests/cli/errors.py [--record] [--programs FOLDER, default build/release/bin] [FILE..., default tests/cli/errors/*.txt]
+Usage: tests/cli/errors.py [--record] [--programs FOLDER, default build/release/bin]
+                           [FILE..., default tests/cli/errors/*.txt]
 
   # a remark
   > command      runs once, before all others, and makes more inputs
-  $ command      must fail; below it what it prints, without empty lines, up to a remark, an empty line or the next command
+  $ command      must fail. The lines below it are what it prints, without empty lines, up to a remark, an
+                 empty line or the next command. The exit code stands before the first line if it is not 1.
 
-The exit code stands before the first line where it is not 1. Each command runs in sh, in a folder of its own: a copy of
-tests/cli/inputs, with fits/ of the repository as a link named shipped. It must leave there what it has found; a folder
-without files does not count. In the output, $PWD stands for that folder, times are 0.00 s, and unfinished files have no
-number. --record writes the output of today into the files.
+Each command runs in sh, in its own folder: a copy of tests/cli/inputs, with fits/ of the repository as a link named
+shipped. It must not change, add or remove any file there. Empty folders are ignored. In the output, $PWD stands for
+that folder, times are 0.00 s, and unfinished files have no number. --record writes the current output into the files.
 """
 import argparse
 import concurrent.futures
@@ -28,7 +29,8 @@ SECONDS = 120
 
 
 def run_shell(command, folder, programs):
-    """The exit code, and the output with the errors after it. These are files, as `ulimit -f` is for files."""
+    """Returns the exit code, and the output followed by the errors. Both go to files, because `ulimit -f` limits only
+    files."""
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", LC_ALL="C", PWD=str(folder))
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         run = subprocess.run(["/bin/sh", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
@@ -39,18 +41,18 @@ def run_shell(command, folder, programs):
 
 
 def copy(folder, to):
-    subprocess.run(["cp", "-a", f"{folder}/.", to], check=True)  # pipes and links are inputs, too
+    subprocess.run(["cp", "-a", f"{folder}/.", to], check=True)  # copies pipes and links, which are inputs, too
 
 
 def contents(folder):
-    """Path -> content of every file, and None for a link or a pipe."""
+    """Maps each path to the content of its file, or to None for a link or a pipe."""
     paths = [Path(place) / name for place, folders, names in os.walk(folder) for name in names + folders]
     return {p.relative_to(folder): p.read_bytes() if p.is_file() and not p.is_symlink() else None
             for p in paths if p.is_symlink() or not p.is_dir()}
 
 
 def parse(text):
-    """The parts of a file in order: lines of text as they stand, and [command, lines shown]."""
+    """Returns the parts of a file in order: lines of text unchanged, and [command, lines shown] for each command."""
     parts, case = [], None
     for line in text.splitlines():
         if line.startswith("$ "):
@@ -74,7 +76,7 @@ def unparsed(parts):
 
 
 def shown(command, inputs, programs):
-    """The lines that a terminal shows after the command, and a list of what is wrong beside them."""
+    """Returns the lines that a terminal shows after the command, and a list of what else is wrong."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name).resolve()
         copy(inputs, folder)
@@ -94,7 +96,7 @@ def shown(command, inputs, programs):
 
 
 def check(path, programs, record):
-    """Runs the cases of a file. Returns their number and how many differ."""
+    """Runs the cases of a file. Returns the number of cases and the number of differing cases."""
     parts = parse(path.read_text())
     cases = [part for part in parts if not isinstance(part, str)]
     failed = 0

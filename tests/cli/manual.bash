@@ -1,4 +1,4 @@
-# groff has nothing to say about the manual pages, and they show what they are of. manual.bash SOURCES
+# manual.bash SOURCES checks that groff has no complaint about the manual pages, and that each page shows its subject.
 set -euo pipefail
 command -v groff >/dev/null || { echo "SKIPPED: groff is not installed" && exit 77; }
 cd "$1/docs/man"

@@ -1,4 +1,5 @@
-// remapc build, chain, invert, fit --swap: fits from a manifest, and fits made of fits.
+// This file tests remapc build, chain, invert and fit --swap: fits from a manifest, and fits made from other
+// fits.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -13,8 +14,8 @@ using namespace remap;
 
 namespace {
 
-// A pair of small sweeps, a published formula, its inverse and a chain of the two. Fits of ward and ward-duer
-// are compared by pictures, which takes nine seconds.
+// Returns a manifest of a pair of small sweeps, a published formula, its inverse, and a chain of both. Fits
+// of ward and ward-duer are compared by pictures, which takes nine seconds.
 std::string manifest() {
   return R"({"format": "remap-manifest", "version": 1,
   "published": [{"id": "a_b_to_mitsuba_ward", "from": "nobody 2020",
@@ -28,8 +29,8 @@ std::string manifest() {
   "chains": [{"id": "a_b_to_mitsuba_ward_duer", "steps": ["a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer"]}]})";
 }
 
-// The same with models of an index of refraction, of which no pictures are compared, and without the inverse,
-// whose 480 rows take longer to fit than all others.
+// Returns the same manifest, but its models have an index of refraction, so fits are not compared by
+// pictures. It has no inverse, whose 480 rows take longer to fit than all other rows.
 nlohmann::json quick_manifest(int resolution = 48) {
   auto items = nlohmann::json::parse(manifest());
   items["published"][0]["id"] = "a_b_to_mitsuba_as_ior";
@@ -43,7 +44,7 @@ nlohmann::json quick_manifest(int resolution = 48) {
   return items;
 }
 
-// The same pairs as published formulas instead of sweeps: built in no time.
+// Returns the same pairs as published formulas instead of sweeps, which are built in no time.
 nlohmann::json published_manifest() {
   auto items = quick_manifest();
   items["sweeps"] = nlohmann::json::array();
@@ -81,7 +82,7 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
                                                      "mitsuba_ward_duer_to_mitsuba_ward",
                                                      "mitsuba_ward_to_a_b",
                                                      "mitsuba_ward_to_mitsuba_ward_duer"});
-  // Each stage is part of the whole; only the table of a sweep takes pictures.
+  // The stages add up to at most the whole. Only the table of a sweep needs pictures.
   const auto made = nlohmann::json::parse(first.output)["built"];
   for (const auto& item : made) {
     const auto& seconds = item["seconds"];
@@ -98,7 +99,7 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
   const Words emit = "emit --all --check --fits fits -o generated";
   CHECK(session.remapc(emit).exit_code == 0);
   const std::string report = session.content("fits/README.md");
-  // The compared pair comes before the published one, whose heading carries the mark.
+  // The compared pair comes before the published pair, whose heading has the mark (!).
   const std::size_t measured = report.find("| mitsuba/ward, mitsuba/ward-duer | [");
   const std::size_t published = report.find("[a/b to mitsuba/ward](a_b_to_mitsuba_ward.json)");
   CHECK(report.find("## Never compared **(!)**") < published);
@@ -111,7 +112,7 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
   CHECK(figures.find("\na_b_to_mitsuba_ward,parametric,a/b,mitsuba/ward,pictures never compared,,") !=
         std::string::npos);
   CHECK(figures.find("Published in nobody 2020. As printed.\n") != std::string::npos);
-  CHECK(figures.find(",Composed of a_b_to_mitsuba_ward; then") != std::string::npos);  // no comma in a cell
+  CHECK(figures.find(",Composed of a_b_to_mitsuba_ward; then") != std::string::npos);  // cells have no commas
   const ProcessResult card = session.remapc("show mitsuba_ward_to_mitsuba_ward_duer --fits fits");
   CHECK(card.output.find("Round trip through mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
         std::string::npos);
@@ -123,7 +124,7 @@ TEST_CASE("remapc build: only what changed is made again", "[slow]") {
   session.write("fits/manifest.json", quick_manifest().dump());
   CHECK(built_ids(session.remapc(build_of())).size() == 4);
 
-  // A header that was edited is remade alone.
+  // If a header was edited, only this header is made again.
   append(session.path(header), "// mine\n");
   const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
@@ -134,12 +135,12 @@ TEST_CASE("remapc build: only what changed is made again", "[slow]") {
   CHECK_FALSE(nlohmann::json::parse(again.output)["built"][0]["fit"].get<bool>());
   CHECK(session.content("fits/" + id + ".json") == fit);
 
-  // A deleted fit is remade from its table, with the same bytes.
+  // A deleted fit is made again from its table, with the same bytes.
   std::filesystem::remove(session.path("fits/" + id + ".json"));
   CHECK(built_ids(session.remapc(build_of())).size() == 1);
   CHECK(session.content("fits/" + id + ".json") == fit);
 
-  // Another recipe of the sweeps remakes both pairs, and the chain that uses one of them.
+  // If the recipe of the sweeps changes, both pairs are made again. So is the chain that uses one of them.
   session.write("fits/manifest.json", quick_manifest(56).dump());
   CHECK(built_ids(session.remapc(build_of())) ==
         std::vector<std::string>{"a_b_to_mitsuba_ggx_ior", id, "mitsuba_ggx_ior_to_mitsuba_as_ior"});
@@ -151,7 +152,7 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   items["chains"] = items["sweeps"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
   session.write("t.csv", made_table(14, 4));
-  require_success(session.remapc(session.fit("t.csv")));  // of no item of the manifest
+  require_success(session.remapc(session.fit("t.csv")));  // the manifest has no item for this fit
   const std::string list = session.path("generated/converters.json"), id = "a_b_to_mitsuba_as_ior";
   const auto is_current = [&] {
     return session.remapc("emit --all --check --fits fits -o generated").output.find("converters.json") ==
@@ -162,7 +163,7 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   CHECK(text.find("made_ward_to_made_as") != std::string::npos);
   CHECK(is_current());
 
-  // What was changed by hand is made again.
+  // If the file was changed by hand, it is made again.
   append(list, "\n");
   const ProcessResult check = session.remapc(build_of("--check"));
   CHECK(check.exit_code == 1);
@@ -170,7 +171,8 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   CHECK(built_ids(session.remapc(build_of())).empty());
   CHECK(read_file(list) == text);
 
-  // A converter that is made again as it was leaves the file as it is; one with another recipe does not.
+  // If a converter is made again with the same recipe, the file does not change. If the recipe changes, the
+  // file does, too.
   std::filesystem::remove(session.path("generated/" + id + ".hpp"));
   CHECK(built_ids(session.remapc(build_of())) == std::vector<std::string>{id});
   CHECK(read_file(list) == text);
@@ -213,7 +215,7 @@ TEST_CASE("remapc build: items that left the manifest are reported, and removed 
   for (const std::string& id : swept)
     CHECK(check.output.find(id + ": no longer in the manifest (`remapc build --prune`") != std::string::npos);
 
-  // They are reported until they are removed; files that were changed by hand stay.
+  // Vanished items are reported until they are removed. Files that were changed by hand stay.
   for (int i = 0; i < 2; ++i) {
     const auto report = nlohmann::json::parse(session.remapc(build_of()).output);
     CHECK(report["vanished"].size() == 3);
@@ -314,7 +316,8 @@ TEST_CASE("remapc build: tables of real renderers are reused without the rendere
         std::vector<std::string>{"fake_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_fake_ggx"});
   const std::string table = session.content("fits/tables/fake_ggx_to_mitsuba_ggx.csv");
 
-  // Without the worker: nothing is out of date; --force reuses the tables; a changed table is an error.
+  // A missing worker does not make items out of date, and --force then reuses the tables. A changed table is
+  // an error.
   const Words elsewhere = "--worker fake=/nowhere/to-be-found";
   CHECK(built_ids(session.remapc(build_of(elsewhere))).empty());
   const Words forced = elsewhere + "--force";

@@ -1,4 +1,4 @@
-// Fitting and comparing as a person meets them: small tables, small networks.
+// This file tests fitting and comparing from the command line, with small tables and small networks.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -16,12 +16,12 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
   for (const std::string word : {"1 x 1 ", "RMSE %", "one light", "chosen"})
     CHECK(fitted.errors.find(word) != std::string::npos);
   CHECK(fitted.output.empty());
-  CHECK(fitted.errors.find('\r') == std::string::npos);  // progress is for terminals
+  CHECK(fitted.errors.find('\r') == std::string::npos);  // only terminals show progress
   const Fit fit = load_fit(session.path("fits/mitsuba_ward_to_mitsuba_as.json"));
   CHECK(fit.candidates.size() >= 3);
   const ProcessResult shown = session.remapc("show mitsuba_ward_to_mitsuba_as --fits fits");
   CHECK(shown.output.find("Compared with") != std::string::npos);
-  // The table itself, line for line.
+  // The fit keeps the table of candidates, so `show` prints the same lines.
   const std::string table = fitted.errors.substr(0, fitted.errors.rfind('\n', fitted.errors.size() - 2));
   CHECK(shown.output.find(table) != std::string::npos);
   CHECK(shown.output.find("chosen by: pictures of other materials under other lights") != std::string::npos);
@@ -74,7 +74,7 @@ TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and 
 
 TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {
   const Session session;
-  session.write("exact.csv", made_table(12, 4));  // of the paper's form
+  session.write("exact.csv", made_table(12, 4));  // this table has exactly the paper's form
   CHECK(session.remapc(session.fit("exact.csv") + "--plot exact.svg").exit_code == 0);
   CHECK(session.content("exact.svg").find("parametric paper, rms ") != std::string::npos);
   require_success(session.remapc(session.fit("exact.csv") + "--force --plot exact.png"));
@@ -121,7 +121,7 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "
   CHECK(result.output.find("alpha and specular unchanged") != std::string::npos);
   CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (made/ward has alpha, not "
                            "an exponent)") != std::string::npos);
-  CHECK(result.output.find("at edge") == std::string::npos);  // a column without figures
+  CHECK(result.output.find("at edge") == std::string::npos);  // the column has no figures, so it is omitted
 
   const ProcessResult json = session.remapc("compare t.csv fits/made_ward_to_made_as.json --json");
   CHECK(json.output.find("\"fitted_from_this_table\": true") != std::string::npos);

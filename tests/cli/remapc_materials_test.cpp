@@ -71,7 +71,7 @@ TEST_CASE("remapc preview: writes pictures and figures of a committed fit", "[sl
   require_success(session.remapc("preview mitsuba_ward_to_mitsuba_ggx --fits " REMAP_SOURCE_DIR "/fits"
                                  " --alpha 0.2,0.5 --resolution 32 --no-labels -o bare.png"));
   const TestImage bare = read_image(session.path("bare.png"));
-  constexpr int kCell = 32 + 2 * 1;  // with a margin
+  constexpr int kCell = 32 + 2 * 1;  // a picture with its margin
   CHECK(bare.spec.width == 3 * kCell);
   CHECK(bare.spec.height == 2 * kCell);
   CHECK(labelled.spec.width > bare.spec.width);

@@ -1,4 +1,4 @@
-// What the tests of remapc's command line share.
+// This file holds what the tests of remapc's command line share.
 #pragma once
 
 #include <cmath>
@@ -28,12 +28,13 @@ class Session : public CommandFolder {
         std::distance(std::filesystem::recursive_directory_iterator(path("")), {}));
   }
 
-  // A fit of a table, by the quickest regression.
+  // Returns the command that fits a table with the fastest regression.
   Words fit(const std::string& table, const std::string& folder = "fits") const {
     return "fit " + table + " --model parametric -o " + folder;
   }
 
-  // A small sweep. A fit of ward to as compares pictures, one of models of an index does not.
+  // Returns the command of a small sweep. Fits of ward to as are compared by pictures, fits of models with an
+  // index are not.
   Words sweep(const std::string& table, const std::string& source = "mitsuba/ward",
               const std::string& target = "mitsuba/as") const {
     return "sweep --source " + source + " --target " + target +
@@ -43,8 +44,8 @@ class Session : public CommandFolder {
 
 inline const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
 
-// A table of a smooth conversion between two models, of `widths` x `speculars` rows. No renderer knows the
-// models, so that a fit does not compare pictures, which takes nine seconds.
+// Returns a table of a smooth conversion between two models, with `widths` x `speculars` rows. No renderer
+// knows the models, because otherwise a fit would compare pictures, which takes nine seconds.
 inline std::string made_table(int widths, int speculars) {
   std::string text = "# source: made/ward\n# target: made/as\n# target_specular: f0\n" + kHeader;
   for (int i = 0; i < widths; ++i)

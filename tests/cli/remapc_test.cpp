@@ -1,4 +1,4 @@
-// remapc as a person meets it: the chain of commands, and runs that are broken off.
+// This file tests remapc as a user runs it: a chain of commands, and runs that are interrupted.
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -18,7 +18,7 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
   const Session session;
   ProcessResult result =
       require_success(session.remapc(session.sweep("t.csv", "mitsuba/as-ior", "mitsuba/beckmann-ior")));
-  CHECK(session.content("t.csv").starts_with(kHeader));  // plain CSV
+  CHECK(session.content("t.csv").starts_with(kHeader));  // plain CSV without comments
   CHECK(session.content("t.csv.json").find("\"source\": \"mitsuba/as-ior\",\n") != std::string::npos);
   CHECK(result.errors.find("36 rows (3 clamped, 33 ok)") != std::string::npos);
   CHECK(session.remapc("check t.csv").exit_code == 0);
@@ -63,7 +63,8 @@ TEST_CASE("remapc: a result that exists is refused, and replaced with --force") 
   require_success(session.remapc(session.fit("t.csv")));
   const std::string fit = session.path("fits/made_ward_to_made_as.json");
   require_success(session.remapc("emit " + fit + " -o ."));
-  require_success(session.remapc("emit " + fit + " -o ."));  // generated headers say that they are
+  // emit only replaces files that are marked as generated
+  require_success(session.remapc("emit " + fit + " -o ."));
   for (const std::string name :
        {"s.exr", "grid.csv", "p.png", "c.json", "plain.csv", "own/made_ward_to_made_as.hpp"})
     session.write(name, "mine");
@@ -98,7 +99,7 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
   const Session session;
   for (const int signal : {SIGKILL, SIGTERM}) {
     auto arguments = session.sweep("broken.csv");
-    arguments[6] = "512";  // seconds of work
+    arguments[6] = "512";  // large enough to run for seconds
     arguments[8] = "400";
     Process process = session.start(REMAPC_PROGRAM + arguments);
     while (process.is_running() && !process.catches(SIGTERM))

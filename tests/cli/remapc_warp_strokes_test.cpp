@@ -1,4 +1,4 @@
-// remapc warp with strokes painted in one image, one color for each pair.
+// This file tests remapc warp with strokes painted in one image, one color for each pair.
 #include <array>
 
 #include <nlohmann/json.hpp>
@@ -17,10 +17,10 @@ constexpr Color kBlack = {0, 0, 0, 1}, kWhite = {1, 1, 1, 1}, kClear = {0, 0, 0,
 struct Paint {
   std::array<Color, 4> corners = {kRed, kGreen, kBlue, kYellow};
   Color background = kBlack;
-  bool smooth = false;  // blended edges, like those of an antialiased brush
+  bool smooth = false;  // blended edges, as an antialiased brush makes them
 };
 
-// The value of a texel: the mean over 16 positions.
+// Returns the value of a texel: if edges are smooth, the mean over 16 positions.
 float painted(const Paint& paint, double phase, int x, int y, int channel) {
   const int steps = paint.smooth ? 4 : 1;
   float sum = 0.0f;
@@ -43,7 +43,7 @@ std::string paint_image(const Session& session, const std::string& name, double 
   return name;
 }
 
-// `remapc warp` with two images.
+// Runs `remapc warp` with two painted images.
 ProcessResult run_painted(const Session& session, const Paint& from, const Paint& to,
                           const std::string& extension = ".png") {
   return run_warp(session, "--strokes " + paint_image(session, "from" + extension, 0.1, from) + " " +
@@ -70,7 +70,7 @@ TEST_CASE("remapc warp: two paintings with a color for each region give the same
   const auto json = nlohmann::json::parse(result.output)["diagnostics"];
   CAPTURE(json.dump());
   CHECK(json["strokes"].size() == 4);
-  if (!smooth)  // in the order of their first texels
+  if (!smooth)  // strokes are sorted by the place of their first texels
     CHECK(json["strokes"] ==
           nlohmann::json({"stroke #ffff00", "stroke #0000ff", "stroke #00cc00", "stroke #ff0000"}));
   CHECK(json["fixed_directions"] == 2);

@@ -1,5 +1,5 @@
-// remapc warp on tables: scattering profiles in lists and maps, and measured BRDFs; and exact copies of maps.
-// OpenImageIO reads the files back.
+// This file tests remapc warp on tables (scattering profiles in lists and maps, measured BRDFs), and exact
+// copies of maps. OpenImageIO reads the files back.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr int kEdge = 24;
 constexpr int kRadii = 40;
 constexpr double kStep = 0.1;
 
-// The two parameters of a wax, which vary along rows and columns.
+// Returns one of the two parameters of a wax, which vary along rows and columns.
 double share(int place) { return static_cast<double>(place) / (kEdge - 1); }
 
 // Returns albedo * exp(-r / length) / (2 pi length^2).
@@ -64,7 +64,7 @@ void write_map(const Session& session, const std::string& folder, const Profile&
               [&](int x, int y, int c) { return static_cast<float>(value(x, y, c % kRadii)); });
 }
 
-// Boxes at the four corners, which correspond to each other.
+// These boxes mark the four corners, which correspond to each other.
 const std::string kCorners =
     " --box 0,0,6,6 0,0,6,6 --box 18,0,24,6 18,0,24,6 --box 0,18,6,24 0,18,6,24 --box 18,18,24,24 "
     "18,18,24,24";
@@ -74,8 +74,8 @@ ProcessResult warp(const Session& session, const std::string& source, const std:
   return session.remapc("warp " + source + " " + target + kCorners + more);
 }
 
-// RMS distance between the positions that texels are copied from and their own positions, which are correct,
-// relative to the width of the map.
+// Returns the RMS distance between the position of a texel and the position that it was copied from, relative
+// to the width of the map. The correct distance is 0.
 double place_error(const TestImage& places) {
   const int column = places.channel("X"), row = places.channel("Y");
   double sum = 0.0;
@@ -103,9 +103,9 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
   for (int y = 0; y < kEdge; ++y)
     for (int x = 0; x < kEdge; ++x)
       CHECK(index.at(x, y, 0) == places.at(x, y, row) * kEdge + places.at(x, y, column));
-  CHECK(place_error(places) < 0.15);  // unrelated positions: 0.58
+  CHECK(place_error(places) < 0.15);  // unrelated positions would give 0.58
   CHECK(session.content("copied/profiles.csv") == session.content("yellow/profiles.csv"));
-  // The copy is a valid set.
+  // The copy is a valid set, which can be warped back.
   CHECK(warp(session, "copied", "blue", "--copy back").exit_code == 0);
 }
 

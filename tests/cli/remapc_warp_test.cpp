@@ -1,4 +1,4 @@
-// remapc warp on texture sets with a known result.
+// This file tests remapc warp on texture sets with a known result.
 #include <nlohmann/json.hpp>
 
 #include "cli/warp_materials.hpp"
@@ -8,7 +8,7 @@ using namespace remap::warp_cli;
 
 namespace {
 
-// A Lambertian material, as a diffuse map alone represents it.
+// Returns a Lambertian material, which is what a single diffuse map describes.
 WarpTexel albedo_texel(const Latent& at) {
   const auto u = static_cast<float>(at.u), v = static_cast<float>(at.v);
   return {0.1f + 0.4f * u, 0.1f + 0.3f * v * v, 0.05f + 0.1f * u * v, 0, 0, 0, 1};
@@ -110,7 +110,7 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures and warn
        at = html.find("data:image/png;base64,iVBORw0KGgo", at + 1))
     ++pictures;
   CHECK(pictures == 9);
-  CHECK(html.find("http") == std::string::npos);  // no external resources
+  CHECK(html.find("http") == std::string::npos);  // the page loads nothing from elsewhere
   CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
   CHECK(html.find("<td>folds</td><td>0 %</td>") != std::string::npos);
   CHECK(html.ends_with("</html>\n"));

@@ -1,5 +1,5 @@
-// remapc with a worker: sweeps that go through the cache, runs that are broken off, what is listed and
-// checked.
+// This file tests remapc with a worker: sweeps that use the cache, runs that are interrupted, and what is
+// listed and checked.
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -24,7 +24,7 @@ Words sweep(const FakeSession& fake, const std::string& table, const std::string
          Words{"--worker", "fake=" + fake.command(fault), "--cache", cache, "-o", table};
 }
 
-// Left by --worker-folder in the session's folder.
+// Counts the folders that --worker-folder left in the session's folder.
 std::ptrdiff_t folders_of_pictures(const Session& session) {
   const std::filesystem::directory_iterator entries(session.path("."));
   return std::count_if(begin(entries), end(entries), [](const auto& entry) {
@@ -32,7 +32,7 @@ std::ptrdiff_t folders_of_pictures(const Session& session) {
   });
 }
 
-// Until the workers have made `count` pictures.
+// Waits until the workers have made `count` pictures.
 void wait_for_pictures(const FakeSession& fake, std::size_t count) {
   for (int i = 0; i < 1200 && fake.pictures() < count; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -49,7 +49,7 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
   CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
   const std::string table = session.content("a.csv");
   CHECK_THAT(session.content("a.csv.json"), Contains("\"renderer\": \"Fake 1; remapc "));
-  CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the identity, to the float
+  CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the conversion is the identity
   const ProcessResult second = require_success(session.remapc(sweep(fake, "b.csv")));
   CHECK_THAT(second.errors, Contains(", 0 pictures rendered and "));
   CHECK(fake.pictures() == pictures);
@@ -96,7 +96,7 @@ TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the sam
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
   require_success(session.remapc(sweep(fake, "a.csv", "", "other")));
   CHECK(session.content("a.csv") == session.content("whole.csv"));
-  CHECK(fake.pictures() == 2 * pictures);  // none of them twice
+  CHECK(fake.pictures() == 2 * pictures);  // no picture was rendered twice
 }
 
 TEST_CASE("remapc sweep: workers that are lost are replaced, and said and counted", "[slow]") {
@@ -131,7 +131,7 @@ TEST_CASE("remapc sweep: no worker stays behind when it is killed, and the next 
 
 namespace {
 
-// The folders for pictures of processes that have ended.
+// Counts the folders for pictures whose processes have ended.
 std::size_t abandoned_folders() {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PrivateFolder().path().parent_path())) {
@@ -178,7 +178,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   const FakeSession fake;
   auto arguments = sweep(fake, "a.csv", "oren-nayar");
   for (std::string& word : arguments)
-    if (word == "5") word = "8";  // alphas and, below, speculars: as many as a fit needs
+    if (word == "5") word = "8";  // a fit needs more alphas and, below, more speculars
   std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
   const std::string words = ": the source's light is multiplied by 1.";
   ProcessResult result = session.remapc(arguments);

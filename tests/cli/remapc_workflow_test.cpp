@@ -1,4 +1,4 @@
-// remapc on fits of workflows: what takes them, and what says that it does not.
+// This file tests remapc on fits between workflows: which commands accept them, and which refuse them.
 #include <nlohmann/json.hpp>
 
 #include "cli/remapc_session.hpp"
@@ -77,7 +77,7 @@ TEST_CASE(
   session.write("fits/manifest.json", manifest("0.03"));
   const ProcessResult built = require_success(session.remapc(kBuild));
   CHECK_FALSE(std::filesystem::exists(session.path("fits/tables/learned.csv")));
-  // `remapc sample` makes the samples that the fit names.
+  // `remapc sample` makes the samples that the fit records.
   require_success(session.remapc(
       "sample --source mitsuba/ggx-metallic --source-set specular=0.375 --vary metallic --target mitsuba/ggx "
       "--objective natural-1 --resolution 16 --count 60 --seed 3 -o samples.csv"));

@@ -1,4 +1,5 @@
-// What `texremap check` advises: each command runs as it is printed, and the rule is silent about its result.
+// This file tests the advice of `texremap check`. Each printed command is run, and its result must then pass
+// the rule.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +32,7 @@ Shape power_of(double exponent) {
 double opposite(double x, double y) { return 1.0 - bumps(x, y); }
 double through_srgb(double x, double y) { return linear_to_srgb(bumps(x, y)); }
 
-// Normals of the height 0.05 sin(a x + b y + c x y), by its derivatives.
+// Returns the normal of the height 0.05 sin(a x + b y + c x y), from its derivatives.
 std::array<double, 3> normal_at(double x, double y) {
   const double slope = 0.05 * std::cos(14.0 * x + 9.0 * y + 11.0 * x * y);
   const double along = slope * (14.0 + 11.0 * y), down = slope * (9.0 + 11.0 * x);
@@ -67,7 +68,7 @@ class AdviceSession : public Session {
       return static_cast<float>(channels[static_cast<std::size_t>(c)]((x + 0.5) / width, (y + 0.5) / height));
     });
   }
-  // in/a.gltf with one material, whose textures are numbered as the images.
+  // Writes in/a.gltf with one material. Texture i uses image i.
   void gltf(const std::string& material, const std::vector<std::string>& images = {}) const {
     std::string list, textures;
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -80,7 +81,7 @@ class AdviceSession : public Session {
         R"({"asset":{"version":"2.0"},"materials":[{"name":"m",)" + material + "}]" + with_images + "}");
   }
 
-  // The findings of one rule in `paths`, with what the command says and returns.
+  // Returns the findings of one rule in `paths`. Checks what the command prints and returns.
   std::vector<nlohmann::json> findings(const std::string& rule, const std::string& paths) const {
     const ProcessResult run = texremap("check " + paths + " --json --quiet --fail-on possible");
     INFO(run.errors);
@@ -100,13 +101,13 @@ class AdviceSession : public Session {
   }
 };
 
-enum class Help { kCommand, kWords };  // whether a command fixes it
+enum class Help { kCommand, kWords };  // how the finding can be fixed
 
 struct Fault {
   std::string rule;
   std::string what;
   Help help = Help::kCommand;
-  std::string checked;  // words of `texremap check`
+  std::string checked;  // arguments of `texremap check`
   std::function<void(const AdviceSession&)> make;
 };
 
@@ -343,11 +344,12 @@ std::vector<Fault> faults() {
   return all;
 }
 
-// What `texremap convert` refuses, what it proposes, and the command with that.
+// A Refusal is a command line that `texremap convert` refuses, what the message proposes, and the repaired
+// command line.
 struct Refusal {
   std::string proposal;
-  std::string refused;   // words
-  std::string repaired;  // instead of them
+  std::string refused;   // arguments
+  std::string repaired;  // arguments that work
   std::function<void(const AdviceSession&)> make;
 };
 
@@ -374,7 +376,7 @@ TEST_CASE("texremap check: what each rule advises runs, and the rule is silent a
         continue;
       }
       CHECK(fix.ends_with(": " + command));
-      if (!typed.insert(command).second) continue;  // it puts several findings right
+      if (!typed.insert(command).second) continue;  // the same command fixes several findings
       const ProcessResult run = session.type(command);
       INFO(command + "\n" + run.errors);
       CHECK(run.exit_code == 0);

@@ -1,4 +1,4 @@
-// `texremap convert` of glTF files, from the command line.
+// This file tests `texremap convert` of glTF files from the command line.
 #include <fstream>
 
 #include "cli/texremap_session.hpp"
@@ -72,7 +72,7 @@ TEST_CASE("Other assets go on after a failure", "[assets]") {
   CHECK(session.content("out/b.gltf") == session.content("b.gltf"));
   CHECK(session.file_count() == 1);
   CHECK(std::count(run.output.begin(), run.output.end(), '\n') ==
-        4);  // the conversion, two assets, the summary
+        4);  // one line each for the conversion, two assets and the summary
 }
 
 TEST_CASE("Textures of an asset become new files beside the old ones", "[assets][slow]") {
@@ -96,7 +96,7 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
   CHECK(session.texremap("convert in/wood.gltf --to gltf -o out --force --quiet").exit_code == 0);
   session.put("in/other.gltf", session.content("in/wood.gltf"));
   CHECK(session.texremap("convert in/wood.gltf in/other.gltf --to gltf -o both").exit_code == 0);
-  // QuantizationTable of PNG: other sizes, the same texels.
+  // The compression level of PNG changes the size of the file, but not its texels.
   const auto wavy = [](int x, int y, int c) { return static_cast<float>((x * y + 5 * c) % 23) / 23.0f; };
   session.make("in/d.png", test_spec(128, 64, {"R", "G", "B"}, OIIO::TypeUInt8), wavy);
   session.make("in/s.png", test_spec(128, 64, {"R", "G", "B", "A"}, OIIO::TypeUInt8), wavy);
@@ -109,7 +109,7 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
 
 namespace {
 
-// A glTF file of one material, which names its images.
+// Returns a glTF file of one material, which uses these images.
 std::string textured(const std::string& diffuse, const std::string& specgloss, const std::string& factor) {
   return R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
          R"({"diffuseFactor":[)" +
@@ -118,7 +118,7 @@ std::string textured(const std::string& diffuse, const std::string& specgloss, c
          specgloss + R"("}]})";
 }
 
-// Two assets that share images of another folder, one whose image is missing, and a plain one.
+// Writes two assets that share images of another folder, an asset whose image is missing, and a plain asset.
 void put_library(const AssetSession& session) {
   std::filesystem::create_directories(session.path("lib/maps"));
   session.make("lib/maps/d.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
@@ -146,8 +146,8 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   CHECK_THAT(run.output,
              Contains(R"({"summary":{)") && Contains(R"("done_before":0)") && Contains(R"("converted":3)"));
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
-  CHECK_FALSE(std::filesystem::exists(session.path("out/maps/d.png")));  // nothing uses it
-  // Both would add maps/d_baseColor.png, of other content.
+  CHECK_FALSE(std::filesystem::exists(session.path("out/maps/d.png")));  // nothing uses this image any more
+  // Without a prefix, both assets would add maps/d_baseColor.png, with different content.
   CHECK_THAT(session.content("out/chairs/a b.gltf"), Contains(R"("uri":"../maps/a%20b_d_baseColor.png")"));
   CHECK(std::filesystem::exists(session.path("out/maps/a b_d_baseColor.png")));
   CHECK(std::filesystem::exists(session.path("out/maps/c_d_baseColor.png")));
@@ -164,7 +164,7 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   CHECK_THAT(session.texremap(command).errors, Contains("0 assets converted, 0 failed, 4 done before"));
   CHECK_THAT(session.texremap(command + " --extensions").last_error(),
              Contains("belongs to another conversion"));
-  // The same bytes from one thread, without a journal of another run.
+  // A run with one thread into a new folder gives the same bytes.
   CHECK(session.texremap("convert lib --assets --recursive --to gltf -o one --threads 1").exit_code == 0);
   for (const char* name : {"chairs/a b.gltf", "chairs/c.gltf", "maps/a b_d_baseColor.png"})
     CHECK(session.content(std::string("one/") + name) == session.content(std::string("out/") + name));
@@ -220,7 +220,7 @@ TEST_CASE("A folder of sets leaves out its assets", "[assets][slow]") {
              Contains("1 asset skipped"));
 }
 
-// A material of real files by the maps of the same material.
+// Converts a material of real files, and compares it with a conversion of the maps of the same material.
 TEST_CASE("Public assets are converted whole", "[assets][slow][needs]") {
   const std::filesystem::path folder = shared_data("assets");
   if (folder.empty()) return;

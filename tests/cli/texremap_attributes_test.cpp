@@ -1,6 +1,6 @@
-// Compares everything that OpenImageIO reports of a file before and after a conversion: the name, type and
-// value of each attribute, windows, tiles, channels and their types, and the texels of channels that are not
-// converted.
+// This file compares everything that OpenImageIO reports about a file before and after a conversion: the
+// name, type and value of each attribute, windows, tiles, channels and their types, and the texels of
+// channels that are not converted.
 #include <algorithm>
 #include <cstring>
 
@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A permitted difference. A name with `*` at its end is a prefix; an empty extension means every format.
+// An Exception is a permitted difference. A name with `*` at its end is a prefix. An empty extension means
+// every format.
 struct Exception {
   std::string extension;
   std::string name;
@@ -35,12 +36,12 @@ const std::vector<Exception> kExceptions = {
     {"", "oiio:Gamma", "as above"},
     {"", "Exif:ColorSpace", "as above"}};
 
-// Permitted for textures with mip levels.
+// These differences are permitted for textures with mip levels.
 const std::vector<Exception> kTextureExceptions = {
     {"", "oiio:SHA-1", "sums over the texels that are no longer there"},
     {"", "oiio:AverageColor", "as above"}};
 
-// Permitted only for files that OpenImageIO cannot write itself.
+// These differences are permitted only for files that OpenImageIO cannot write itself.
 const std::vector<Exception> kForeignExceptions = {
     {"jpg", "Exif:PixelXDimension", "the same number, in the type that OpenImageIO writes"},
     {"jpg", "Exif:PixelYDimension", "as above"},
@@ -54,7 +55,7 @@ const std::vector<Exception> kForeignExceptions = {
 
 struct Comparison {
   std::vector<Exception> exceptions;
-  std::vector<bool> used;  // exceptions that some file needed
+  std::vector<bool> used;  // whether some file needed the exception
 };
 
 Comparison comparison(const std::vector<Exception>& more = {}) {
@@ -70,7 +71,7 @@ bool covers(const Exception& exception, const std::string& extension, const std:
   return name.starts_with(exception.name.substr(0, exception.name.size() - 1));
 }
 
-// The differences without an exception, one per line. Marks the exceptions that were needed.
+// Returns the differences without an exception, one per line. Marks the exceptions that were needed.
 std::string unexplained(const std::vector<SpecDifference>& all, const std::string& extension,
                         Comparison& comparison) {
   const std::vector<Exception>& exceptions = comparison.exceptions;
@@ -87,7 +88,7 @@ std::string unexplained(const std::vector<SpecDifference>& all, const std::strin
   return lines;
 }
 
-// The number of changed channels except `converted`; -1 excepts none.
+// Counts the channels except `converted` that changed. With -1, it counts all.
 int changed_channels(const StoredPlane& before, const StoredPlane& after, int converted) {
   if (before.bytes.size() != after.bytes.size()) return before.spec.nchannels;
   const std::size_t texel = before.spec.pixel_bytes(true);
@@ -124,12 +125,12 @@ void check_file(const fs::path& file, int converted, bool is_lossless, Compariso
       CHECK(unexplained(differences(in.spec, out.spec), extension, comparison) == "");
       if (!is_lossless) continue;
       CHECK(changed_channels(in, out, part == 0 ? converted : -1) == 0);
-      if (part == 0) CHECK(changed_channels(in, out, -1) == 1);  // the converted one
+      if (part == 0) CHECK(changed_channels(in, out, -1) == 1);  // only the converted channel changed
     }
   }
 }
 
-// Checks that some file needed each exception for these formats.
+// Checks that each exception was needed by at least one file of these formats.
 void check_used(const Comparison& comparison, const std::vector<std::string>& extensions) {
   for (std::size_t i = 0; i < comparison.used.size(); ++i) {
     const Exception& exception = comparison.exceptions[i];
@@ -209,7 +210,7 @@ TEST_CASE("texremap attributes: a map without a date does not get the date of th
   const Session session;
   session.write_pair("exr", 16);
   for (const char* name :
-       {"r.exr", "s.exr"}) {  // OpenImageIO writes the date, under the name that EXR has for it
+       {"r.exr", "s.exr"}) {  // removes the date, which OpenImageIO writes under EXR's own name
     std::string bytes = session.content(name);
     bytes.replace(bytes.find("capDate"), 7, "anyDate");
     write_file(session.path(name), bytes);
@@ -242,7 +243,7 @@ TEST_CASE("texremap attributes: the comparison detects lost, added and changed a
 
 TEST_CASE("texremap attributes: a PNG of data gets no color space, and a PNG of color keeps its own") {
   const Session session;
-  // OpenImageIO reports sRGB for a PNG without any, so the test looks for the chunks.
+  // OpenImageIO reports sRGB even for a PNG without any tag, so the test looks for the chunks.
   const auto tag_of = [&](const char* file) {
     const std::string bytes = session.content(file);
     return bytes.find("sRGB") != std::string::npos   ? "sRGB"

@@ -1,5 +1,6 @@
-// What texremap says of how closely a target can look like its source, with the converters that ship: how far
-// pictures differ, the model that `--to RENDERER` takes, and closer models.
+// This file tests what texremap prints about how similar a target can look to its source, with the converters
+// that ship: how far pictures differ, the model that `--to RENDERER` chooses, and models that are more
+// similar.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -22,7 +23,7 @@ ProcessResult path(const std::string& from, const std::string& to, const Words& 
   return session.texremap("path --from " + from + " --to " + to + more);
 }
 
-// Converts numbers.
+// Converts numbers instead of maps.
 ProcessResult convert(const std::string& from, const std::string& to, const Words& more = {}) {
   const Session session;
   return session.texremap("convert --from " + from + " --to " + to + " --roughness 0.3 --specular 0.04" +
@@ -34,7 +35,7 @@ nlohmann::json json_of(const ProcessResult& result) {
   return nlohmann::json::parse(result.output);
 }
 
-// From the pictures of a fit.
+// Returns the text that the pictures recorded in a fit give.
 std::string measured_text(const std::string& id) {
   const JudgedPictures pictures = load_fit(REMAP_SOURCE_DIR "/fits/" + id + ".json").pictures.value();
   const auto percent = [](double rmse) { return fixed(rmse, 1) + " %"; };

@@ -1,4 +1,4 @@
-// Files of a material that are copied byte for byte, without conversion.
+// This file tests files of a material that are copied byte for byte, without conversion.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ void write_map(const Session& session, const std::string& name, const std::vecto
   session.make(name, test_spec(size, size, channels, OIIO::TypeUInt8), noise);
 }
 
-// A whole material: maps to convert and maps to copy.
+// Writes a whole material: maps to convert and maps to copy.
 void write_set(const Session& session, const std::string& folder) {
   write_map(session, folder + "/wood_Roughness.png", {"Y"});
   write_map(session, folder + "/wood_Specular.png", {"R", "G", "B"});

@@ -1,4 +1,5 @@
-// texremap under failures of the system: full disks, limits, signals. Results appear complete or not at all.
+// This file tests texremap when the system fails: full disks, limits, signals. Results must be complete or
+// missing.
 #include <chrono>
 #include <csignal>
 #include <sys/mount.h>
@@ -20,7 +21,7 @@ void write_pair_of(const Session& session, const std::string& extension, int siz
   session.write_pair(extension, size, extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8);
 }
 
-// A small file system mounted on a folder, if the test has the permission.
+// A SmallDisk is a small file system mounted on a folder, if the test has the permission to do so.
 class SmallDisk {
  public:
   SmallDisk(const std::string& folder, const char* size) : folder_(folder) {
@@ -39,10 +40,10 @@ class SmallDisk {
   bool mounted_ = false;
 };
 
-// The exit code where the reason may pass: EX_TEMPFAIL of sysexits.h.
+// This is the exit code if a later attempt may succeed: EX_TEMPFAIL of sysexits.h.
 constexpr int kTryAgain = 75;
 
-// Three sets: one of `large` x `large` texels between two small ones.
+// Writes three sets: one of `large` x `large` texels between two small ones.
 void write_sets(const Tree& tree, const std::string& extension, int large) {
   for (const char* set : {"a", "b", "c"})
     for (const char* map : {"_rough.", "_spec."})
@@ -50,7 +51,7 @@ void write_sets(const Tree& tree, const std::string& extension, int large) {
                set[0] == 'b' ? large : kTreeMapSize);
 }
 
-// Checks that the large set failed and left no file, not even under another name.
+// Checks that the large set failed without leaving any file, and that the other sets are complete.
 void check_others_whole(const Tree& tree, const ProcessResult& result, const std::string& extension,
                         int exit_code) {
   INFO(result.errors);
@@ -80,7 +81,8 @@ ProcessLimits ordinary_user() {
   return limits;
 }
 
-// Whether the modes of files hold for programs that the tests start. Else skips.
+// Returns true if permissions of files are enforced for programs that the tests start. Otherwise skips the
+// test.
 bool permissions_hold(const Session& session) {
   const std::string file = session.path("unreadable");
   write_file(file, "");
@@ -92,7 +94,7 @@ bool permissions_hold(const Session& session) {
 
 // Waits until texremap has begun to write, then sends the signal.
 ProcessResult interrupted(const Session& session, int signal) {
-  // Compresses for seconds.
+  // The compression must take seconds.
   Process process = session.start(REMAP_TEXREMAP " " + kConversion +
                                   " --roughness r.exr --specular s.exr --format png --threads 1");
   const auto has_begun = [&] {
@@ -164,7 +166,7 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
   write_sets(tree, extension, 256);
   for (const std::string threads : {"1", "2"}) {
-    // The JSON must fit within the limit, too.
+    // The limit applies to the JSON output, too, which must fit.
     check_others_whole(tree, tree.convert_tree("--json --force --threads " + threads, at_most(20'000)),
                        extension, 1);
     fs::remove_all(tree.path("out"));
@@ -177,7 +179,7 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
   const SmallDisk disk(tree.path("out"), "size=100k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_sets(tree, "exr", 512);
-  // One set at a time: other sets would find the disk full while the large one fills it.
+  // Converts one set at a time. Otherwise other sets would find the disk full while the large one fills it.
   const ProcessResult result = tree.convert_tree("--json --threads 1");
   check_others_whole(tree, result, "exr", kTryAgain);
   CHECK_THAT(result.errors, Contains("No space left on device"));

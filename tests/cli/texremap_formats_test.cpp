@@ -1,4 +1,4 @@
-// Reads the results of texremap with OpenImageIO: converted channels must equal the converter.
+// This file reads the results of texremap with OpenImageIO. Converted channels must equal the converter.
 #include <cmath>
 #include <limits>
 
@@ -75,7 +75,7 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
 
 }  // namespace
 
-// texremap_attributes_test compares storage and all channels that are not converted.
+// texremap_attributes_test compares the storage and all channels that are not converted.
 TEST_CASE("texremap: every format is converted in every kind of storage", "[slow]") {
   for (const Case& format : cases()) {
     const Session session;
@@ -156,7 +156,7 @@ TEST_CASE("texremap: --compression changes sizes and no texel", "[slow]") {
           session.convert(roughness, specular, "--force --format " + extension + " --compression " + level));
       const std::uintmax_t size = fs::file_size(session.path("out/" + specular));
       INFO(extension << " " << level);
-      // Noise in a PNG has nothing to gain.
+      // A PNG of noise cannot get smaller, so its size may stay the same.
       CHECK((extension == "png" ? size <= last : size < last));
       last = size;
       const std::vector<float> now = session.image("out/" + specular).values;
@@ -197,8 +197,8 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("specular read as srgb"));
   const TestImage in = session.image("r.jpg"), color = session.image("s.jpg"),
                   out = session.image("out/r.jpg");
-  // Quality 100 rounds the coefficients of 8 x 8 cosines to integers, an error of a few steps of 1/255 at
-  // most.
+  // JPEG of quality 100 rounds the coefficients of 8 x 8 cosines to integers. The error is at most a few
+  // steps of 1/255.
   for (int x = 0; x < 64; ++x) {
     const auto read = [&](int c) { return color_read(color.at(x, 3, c), color.spec.format); };
     const std::array<float, 3> specular = {read(0), read(1), read(2)};

@@ -1,5 +1,5 @@
-// What strangers leave in folders: programs, links, pipes, names and images that were made to do harm. The
-// cases are those of docs/security.md.
+// This file tests what strangers put into folders: programs, links, pipes, names and images that were made to
+// do harm. The cases are those of docs/security.md.
 #include <csignal>
 #include <fstream>
 #include <sys/file.h>
@@ -25,7 +25,7 @@ class HostileFolder : public Tree {
  public:
   void put(const std::string& name, const std::string& content) const { write_file(path(name), content); }
   std::string content(const std::string& name) const { return read_file(path(name)); }
-  // An asset that names a file as its buffer.
+  // Writes an asset that uses a file as its buffer.
   void put_asset(const std::string& name, const std::string& part) const {
     put(name, R"({"asset":{"version":"2.0"},"buffers":[{"uri":")" + part + R"(","byteLength":4}],)" +
                   kSpecGloss + "}");
@@ -42,7 +42,7 @@ class HostileFolder : public Tree {
     fs::create_directories(fs::path(path(name)).parent_path());
     fs::create_symlink(to, path(name));
   }
-  // The same manifest after a hand has changed it: its hash has no key, so anybody can make it right.
+  // Edits the manifest and corrects its hash. Anybody can do this, because the hash has no key.
   void change_manifest(const std::string& from, const std::string& to) const;
 };
 
@@ -126,7 +126,7 @@ TEST_CASE("texremap hostile: of two sets that differ in case alone the second is
   folder.map(
       "in/\xc3\x84"
       "bc_roughness.png",
-      kGrey);  // Ä and ä
+      kGrey);  // these are Ä and ä
   folder.map(
       "in/\xc3\xa4"
       "bc_roughness.png",
@@ -224,7 +224,7 @@ TEST_CASE("texremap hostile: links out of the folder of the inputs are read when
   CHECK_THAT(run.errors, Contains("in/payload.bin: is a link that leads out of") &&
                              Contains("(--follow-links reads it)"));
   CHECK_FALSE(fs::exists(folder.path("out/payload.bin")));
-  CHECK(folder.content("out/tex/p.bin") == "5678");  // a link inside
+  CHECK(folder.content("out/tex/p.bin") == "5678");  // the link stays inside the folder
   CHECK(folder.texremap("convert in/a.gltf --to gltf -o one").exit_code == 1);
   CHECK(folder.texremap("convert in/a.gltf --to gltf -o one --follow-links").exit_code == 0);
   CHECK(folder.content("one/payload.bin") == "1234");
@@ -245,7 +245,8 @@ TEST_CASE("texremap hostile: pipes and files without end in the place of its fil
   fs::create_directories(folder.path("in/.texremap-parts"));
   REQUIRE(::mkfifo(folder.path("in/.texremap-parts/a.journal").c_str(), 0600) == 0);
   folder.put("in/.texremap.jsonl", "");
-  fs::resize_file(folder.path("in/.texremap.jsonl"), std::uintmax_t{8} << 30);  // without a line break
+  // The journal becomes a file of zeros without a line break.
+  fs::resize_file(folder.path("in/.texremap.jsonl"), std::uintmax_t{8} << 30);
   CHECK(folder.texremap(kOfTree).exit_code == 0);
   fs::remove(folder.path("out/.texremap.jsonl"));
   REQUIRE(::mkfifo(folder.path("out/.texremap.jsonl").c_str(), 0600) == 0);
@@ -292,7 +293,7 @@ TEST_CASE(
     "texremap hostile: images are read by their content, and their claims are compared with their size") {
   const HostileFolder folder;
   const std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
-  // 32768 x 32768 texels of 16 bits in four channels, interlaced.
+  // This is the head of a PNG of 32768 x 32768 texels of 16 bits in four channels, interlaced.
   const std::string bomb = head + std::string("\0\0\x80\0\0\0\x80\0\x10\6\0\0\1\xe3\xeb\x4f\xaa", 17) +
                            std::string("\0\0\0\0IDAT\x35\xaf\x06\x1e", 12) + end;
   folder.put("in/bomb_roughness.png", bomb);

@@ -1,4 +1,5 @@
-// Inputs of texremap: packed channels, glossiness, numbers, factors, sRGB color, invalid values.
+// This file tests inputs of texremap: packed channels, glossiness, numbers, factors, sRGB color, invalid
+// values.
 #include <cmath>
 #include <cstring>
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr int kInputSize = 40;
 
-// From mitsuba/ward to mitsuba/as, into `out`.
+// Converts from mitsuba/ward to mitsuba/as, into `out`.
 ProcessResult convert_ward(const Session& session, Words words) {
   return session.texremap(Words("convert --from mitsuba/ward --to mitsuba/as") + words);
 }
@@ -43,7 +44,7 @@ TEST_CASE("texremap inputs: one channel of a packed map is converted, the others
 TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout", "[slow]") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
-  // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
+  // Alpha is 0 or far below the colors, so that a multiplication or division by it would be visible.
   session.make(name, test_spec(kInputSize, kInputSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
                [](int x, int y, int c) {
                  return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
@@ -144,7 +145,7 @@ TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   CHECK_THAT(refused.last_error(),
              Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
   CHECK_FALSE(fs::exists(session.path("again")));
-  // Converting from the current model is allowed.
+  // Converting the results again is allowed, from their current model.
   CHECK(session.texremap("convert --from mitsuba/as --to mitsuba/ggx" + again).exit_code == 0);
   again.push_back("--force");
   CHECK(convert_ward(session, again).exit_code == 0);

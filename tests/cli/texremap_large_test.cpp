@@ -1,5 +1,5 @@
-// Maps that do not fit the memory texremap may take. Slow: run by `texremap_test "[large]"`. A full campaign
-// has maps of four times the size.
+// This file tests maps that are larger than the memory that texremap may use. It is slow; `texremap_test
+// "[large]"` runs it. A full campaign has maps of four times the size.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kBand = 64;
 
-// For texremap, which takes 170 MB whatever the size. Half of the maps as floats would go beyond it.
+// texremap needs 170 MB for any size. Half of the maps as floats would exceed the limit.
 long most_megabytes() { return is_full_campaign() ? 300 : 220; }
 
-// Writes noise a band at a time.
+// Writes noise band by band.
 void write_large(const std::string& path, const std::vector<std::string>& channels, int size) {
   OIIO::ImageSpec spec = test_spec(size, size, channels, OIIO::TypeHalf);
   spec.attribute("Compression", "zip");
@@ -27,7 +27,7 @@ void write_large(const std::string& path, const std::vector<std::string>& channe
       for (int c = 0; c < spec.nchannels; ++c)
         grain[static_cast<std::size_t>((y * size + x) * spec.nchannels + c)] = 0.1f * noise(x, y, c);
   for (int top = 0; top < size; top += kBand) {
-    for (std::size_t i = 0; i < band.size(); ++i) {  // smooth like a texture, with added noise
+    for (std::size_t i = 0; i < band.size(); ++i) {  // smooth as in a texture, with added noise
       const auto x = static_cast<float>(i % row / channels.size()), y = static_cast<float>(i / row);
       band[i] =
           (x + 2.0f * (static_cast<float>(top) + y)) / (3.0f * static_cast<float>(size)) * 0.9f + grain[i];
@@ -57,7 +57,7 @@ class BandReader {
 }  // namespace
 
 TEST_CASE("texremap: large maps in bounded memory, equal to the converter texel by texel", "[.][large]") {
-  // As floats, in and out: 512 MB, and 2 GB in a full campaign.
+  // As floats, inputs and results take 512 MB, and 2 GB in a full campaign.
   const int size = is_full_campaign() ? 8192 : 4096;
   const Session session;
   write_large(session.path("r.exr"), {"Y"}, size);

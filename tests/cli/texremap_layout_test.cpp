@@ -1,4 +1,4 @@
-// Layouts: results packed into one file, split into several, and packed again.
+// This file tests layouts: results packed into one file, split into several, and packed again.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   CHECK(channel(session, named("apart/roughness"), 0) == expected);
   CHECK(session.image(named("apart/roughness")).spec.format == type);
 
-  // Packed again and converted to another model; then as-inputs, which keeps the layout.
+  // The maps are packed again and converted to another model. Then as-inputs keeps that layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
                           "--roughness " + named("apart/roughness") + " --occlusion " +
@@ -75,7 +75,7 @@ TEST_CASE("texremap layouts: missing maps give a warning") {
 
 namespace {
 
-// A metallic set in the arrangement of a tool: the files of `preset`, from values of a formula.
+// Returns the values of a metallic set. The tests below write it in the arrangement of a tool (`preset`).
 float metallic_value(int x, int y) { return noise(x, y, 0); }
 float width_value(int x, int y) { return noise(x, y, 1); }
 float occlusion_value(int x, int y) { return noise(x, y, 2); }
@@ -101,7 +101,7 @@ struct Expected {
   std::string file;
   int channel = 0;
 };
-// Where a preset has the values of the set.
+// An Arrangement says where a preset stores the values of the set.
 struct Arrangement {
   std::string engine;
   Expected roughness;
@@ -151,9 +151,9 @@ TEST_CASE("texremap layouts: the same material is arranged anew, and no stored v
           channel(session, "in/wood_occlusionRoughnessMetallic.png", 1));
     CHECK(held(to.metallic) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 2));
     CHECK(held(to.occlusion) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
-    // A file that stays as it is is copied byte for byte.
+    // A file whose content does not change is copied byte for byte.
     CHECK(session.content(out + "/" + to.base_color + ".png") == session.content("in/wood_baseColor.png"));
-    // Its names are found again.
+    // texremap recognises the names that it wrote.
     require_success(session.texremap("convert " + out + " --from gltf --to gltf --layout gltf -o " + back));
     const std::string set = back + (to.engine == "unreal" ? "/T_wood" : "/wood");
     CHECK(session.content(set + "_baseColor.png") == session.content("in/wood_baseColor.png"));
@@ -292,7 +292,7 @@ TEST_CASE("texremap: WebP is read, and written as PNG", "[needs]") {
   require_success(
       session.texremap("convert web --from mitsuba/ward --to mitsuba/as --specular 0.04 --quiet -o webout"));
   CHECK(session.image("webout/wood_Roughness.png").spec.width == kLayoutSize);
-  // OpenImageIO multiplies colors by alpha, and the loss of 8 bits cannot be taken back.
+  // OpenImageIO multiplies colors by alpha, and 8 bits lose too much to undo this.
   session.make("half.webp", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
                [](int x, int y, int c) { return c == 3 ? 0.5f : noise(x, y, c); });
   const ProcessResult spoiled = session.texremap(

@@ -1,5 +1,5 @@
-// What a run of a folder leaves for the next one: the journal, resumed and repeated runs, runs at the same
-// time, and what a killed run has told.
+// This file tests what a run of a folder leaves for the next run: the journal, resumed and repeated runs,
+// simultaneous runs, and what a killed run has reported.
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -30,7 +30,7 @@ Words command(const std::string& target, const Words& more = {}) {
   return "convert in --from mitsuba/ward --to " + target + " -o out" + more;
 }
 
-// Of a resumed run; or what it said, where it has no sets.
+// Returns the states of the sets in a resumed run, or its messages if it has no sets.
 std::string states(const Tree& tree, const Words& more, const std::string& target = "mitsuba/as") {
   const ProcessResult result = tree.texremap(command(target, "--json" + more));
   INFO(result.errors);
@@ -38,7 +38,7 @@ std::string states(const Tree& tree, const Words& more, const std::string& targe
   return letters.empty() ? result.errors : letters;
 }
 
-// The shipped converters with Ward to AS scaled: the same id, other numbers.
+// Writes the shipped converters, but scales the numbers of Ward to AS. The id stays the same.
 void write_other_converters(const std::string& path, double scale) {
   auto json =
       nlohmann::ordered_json::parse(read_file(fs::path(REMAP_SOURCE_DIR) / "generated/converters.json"));
@@ -68,7 +68,8 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
     tree.map("in/" + name + "_specular.png", kColor);
     tree.map("in/" + name + "_glossiness.png", kGrey);
   }
-  const fs::path checks = tree.path("in/checks");  // below the inputs; --output is a relative path
+  // this path is absolute and below the inputs, but --output is a relative path
+  const fs::path checks = tree.path("in/checks");
   const auto convert = [&](const Words& more) {
     return tree.texremap("convert in --from gltf-specgloss --to gltf -r --json -o out --diagnose " +
                          checks.string() + more);
@@ -127,7 +128,7 @@ TEST_CASE("texremap nights: maps without metadata are not converted twice", "[sl
   const Tree tree;
   const std::string extension = GENERATE("tga", "bmp");
   write_sets(tree, 1, extension);
-  // However the folder is written.
+  // The path of the folder may be written in different ways.
   Words words = command("mitsuba/as");
   words.back() += GENERATE("", "/", "/../out");
   fs::create_directories(tree.path("out"));
@@ -142,7 +143,7 @@ TEST_CASE("texremap nights: maps without metadata are not converted twice", "[sl
                     " --specular 0.04 -o single");
   CHECK(single.exit_code == 2);
   CHECK_THAT(single.last_error(), Contains("already converted to mitsuba/as"));
-  // A new file of the same name is not.
+  // If a new file of the same name replaces it, it may be converted.
   write_sets(tree, 1, extension);
   fs::copy_file(tree.path("in/s0_rough." + extension), tree.path("out/s0_rough." + extension),
                 fs::copy_options::overwrite_existing);
@@ -181,7 +182,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
             "-o", out.c_str(), "--threads", "1", "--json", nullptr);
     ::_exit(9);
   }
-  // When the tenth line is there, the run is killed.
+  // The run is killed when the tenth line has appeared.
   const auto lines = [](const std::string& path) {
     const std::string content = read_file(path);
     return std::count(content.begin(), content.end(), '\n');
@@ -202,7 +203,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
   CHECK(lines(text) >= 9);
   for (const std::string& name : told)
     CHECK(fs::exists(tree.path("out/" + fs::path(name).filename().string() + "_spec.png")));
-  // At most the sets that were under way are finished and not told.
+  // Only sets that were in work may be finished without being reported.
   CHECK(tree.results().size() <= 2 * (told.size() + 2));
   CHECK(tree.texremap(command("mitsuba/as", "")).exit_code == 0);
 }
@@ -230,12 +231,13 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
     alone[target] = content();
   }
   for (int round = 0; round < 5; ++round) {
-    // The same conversion: whole, equal results.
+    // Two runs of the same conversion succeed, with complete and equal results.
     fs::remove_all(tree.path("out"));
     const Words same = command("mitsuba/as", "");
     for (const ProcessResult& result : run_both(same, same)) require_success(result);
     CHECK(content() == alone["mitsuba/as"]);
-    // Two conversions: one is refused, with --force the last has the folder; no set is of both.
+    // If two different conversions run at once, one is refused. With --force, the last one owns the folder.
+    // No set mixes results of both.
     for (const Words& more : {Words{}, Words{"--force"}}) {
       fs::remove_all(tree.path("out"));
       run_both(command("mitsuba/as", more), command("mitsuba/ggx", more));
@@ -264,7 +266,7 @@ TEST_CASE("texremap nights: a damaged journal line is ignored") {
   CHECK(states(tree, {}) == "dd");
   std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "\n[[[\n{\"files\": 5}\n";
   CHECK(states(tree, {}) == "dd");
-  // A line without an end does not swallow the next one.
+  // A line that has no end does not swallow the next line.
   std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "{\"set\": \"s0\", \"fil";
   tree.map("in/s1_rough.tga", kGrey, OIIO::TypeUInt8, 2 * kTreeMapSize);
   tree.map("in/s1_spec.tga", kColor, OIIO::TypeUInt8, 2 * kTreeMapSize);

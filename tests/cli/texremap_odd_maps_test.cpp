@@ -1,4 +1,4 @@
-// Maps of unusual sizes, and with too few or too many channels.
+// This file tests maps of unusual sizes, and maps with too few or too many channels.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -30,7 +30,8 @@ TEST_CASE("texremap odd maps: one texel, and strips, in every format", "[slow]")
     REQUIRE(out.spec.height == height);
     const int x = width - 1, y = height - 1;  // the last texel
     const auto expected = converted_texel(0.3f, {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)});
-    // Exact, except for a step of JPEG and the shared exponent of Radiance (8 bits of the largest channel).
+    // Values must be exact, except for a step of JPEG and the shared exponent of Radiance (8 bits of the
+    // largest channel).
     const double step = extension == "jpg" ? 6.0 / 255.0 : extension == "hdr" ? 1.0 / 128.0 : 0.0;
     for (int c = 0; c < 3; ++c)
       CHECK(static_cast<double>(out.at(x, y, c)) ==

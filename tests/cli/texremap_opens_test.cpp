@@ -1,4 +1,5 @@
-// How often texremap opens a file: on the storage of a farm an open is a question to a server.
+// This file counts how often texremap opens a file. On the storage of a render farm, each open is a request
+// to a server.
 #include <fstream>
 #include <map>
 
@@ -15,7 +16,7 @@ const Words kOfTree = "convert in --recursive --from mitsuba/ward --to mitsuba/a
 const Words kOfManifest =
     "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o out --part 1/1 --quiet";
 
-// Two color parts, of which one is specular.
+// Writes a file of two parts, of which one is the specular color.
 void write_parts(const std::string& path) {
   OIIO::ImageSpec color = test_spec(kTreeMapSize, kTreeMapSize, kColor, OIIO::TypeHalf);
   std::vector<OIIO::ImageSpec> specs = {color,
@@ -34,7 +35,7 @@ void write_parts(const std::string& path) {
   REQUIRE(output->close());
 }
 
-// A set of each format: two maps that are converted, a normal map that is not.
+// Writes a set of each format: two maps that are converted, and a normal map that is not.
 void write_library(const Tree& tree) {
   for (const std::string format : {"png", "tga", "jpg", "bmp", "exr", "tif"}) {
     const auto type = format == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8;
@@ -46,7 +47,7 @@ void write_library(const Tree& tree) {
   write_parts(tree.path("in/parts_spec.exr"));
 }
 
-// The number of opens of each file of `in` and `out`, where a result has its final name.
+// Returns the number of opens of each file in `in` and `out`. A result is counted under its final name.
 std::map<std::string, int> opens(const Tree& tree, const Words& words) {
   fs::remove(tree.path("opens.txt"));
   const ProcessResult result =
@@ -70,7 +71,7 @@ std::map<std::string, int> opens(const Tree& tree, const Words& words) {
 
 }  // namespace
 
-// The writers of TIFF, and of EXR with several parts, open the file again, through its descriptor.
+// The writers of TIFF, and of EXR with several parts, open the file again through its descriptor.
 TEST_CASE("texremap opens: every input once and every result once by its name") {
   const Tree tree;
   write_library(tree);
@@ -80,7 +81,7 @@ TEST_CASE("texremap opens: every input once and every result once by its name") 
     INFO(name);
     CHECK(count == 1);
   }
-  // What is done is read once, to be compared.
+  // In a second run, each finished file is read once, to compare it.
   for (const auto& [name, count] : opens(tree, kOfTree + "")) {
     INFO(name);
     CHECK(count == 1);

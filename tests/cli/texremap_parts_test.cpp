@@ -1,5 +1,5 @@
-// Conversions in parts: the manifest of a tree, parts and their reports, and what a part leaves for the next
-// run.
+// This file tests conversions in parts: the manifest of a tree, parts and their reports, and what a part
+// leaves for the next run.
 #include <cerrno>
 #include <fstream>
 #include <set>
@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kParts = ".texremap-parts";
-// A plan names the program that makes it.
+// A plan contains the path of the program, so texremap is started by its path here.
 const Words kByItsFile = "/usr/bin/env " REMAP_TEXREMAP;
 const std::string kOfManifest = "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o ";
 
-// Sets of several sizes, folders, formats, and one with tiles.
+// Writes sets of several sizes, folders and formats, and one with tiles.
 void write_library(const Tree& tree) {
   for (int i = 0; i < 7; ++i) {
     const std::string name = "in/f" + std::to_string(i % 3) + "/s" + std::to_string(i);
@@ -40,7 +40,7 @@ ProcessResult part(const Tree& tree, const std::string& which, const Words& more
   return tree.texremap(kOfManifest + "out --json --part " + which + more);
 }
 
-// The content of every result, by name.
+// Returns the content of every result, by name.
 std::map<std::string, std::string> results_in(const Tree& tree, const std::string& folder) {
   std::map<std::string, std::string> results;
   for (const auto& entry : fs::recursive_directory_iterator(tree.path(folder))) {
@@ -133,7 +133,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   CHECK(states("1/2") == std::string(first.size(), 'd'));
   fs::remove(tree.path("out/f0/s0_rough.png"));
   CHECK(states("1/2").find('c') != std::string::npos);
-  // Other parts have the sets now; nothing is made again.
+  // With three parts, other parts have the sets, but nothing is made again.
   CHECK(states("1/3") + states("2/3") + states("3/3") == "dddddddd");
   tree.map("in/a_rough.png", kGrey);
   tree.map("in/a_spec.png", kColor);
@@ -142,7 +142,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   std::sort(all.begin(), all.end());
   CHECK(all == "cdddddddd");
   CHECK(tree.texremap(kOfManifest + "out --quiet").exit_code == 0);
-  // Another conversion is refused, whichever part finds it.
+  // A different conversion is refused, whichever part it is in.
   const ProcessResult other =
       tree.texremap("convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/ggx -o out --part 7/9");
   CHECK(other.exit_code == 1);
@@ -261,7 +261,7 @@ namespace {
 
 const std::string kOfAssets = "convert --manifest assets.jsonl --to gltf -o ";
 
-// A file whose material has one texture for diffuse and one for specular and glossiness.
+// Writes a file whose material has one texture for diffuse and one for specular and glossiness.
 void write_asset(const Tree& tree, const std::string& name, const std::string& image) {
   write_file(
       tree.path(name),
@@ -272,7 +272,8 @@ void write_asset(const Tree& tree, const std::string& name, const std::string& i
           image + R"(_d.png"},{"uri":")" + image + R"(_s.png"}]})");
 }
 
-// Four assets in two folders: two share the images of a third folder, one names images that are not there.
+// Writes four assets in two folders. Two of them share the images of a third folder, and the images of one
+// are missing.
 void write_assets(const Tree& tree) {
   for (const char* image : {"in/maps/wood", "in/a/own"}) {
     tree.map(std::string(image) + "_d.png", kColor, OIIO::TypeUInt8, 16);
@@ -294,7 +295,7 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
   INFO(index.errors);
   REQUIRE(index.exit_code == 0);
   CHECK(nlohmann::json::parse(index.output)["assets"] == 4);
-  CHECK(nlohmann::json::parse(index.output)["files"] == 10);  // shared images count for each asset
+  CHECK(nlohmann::json::parse(index.output)["files"] == 10);  // shared images are counted for each asset
   CHECK(tree.texremap("convert in --assets --recursive --to gltf -o walked").exit_code == 0);
   CHECK(tree.texremap(kOfAssets + "one").exit_code == 0);
   const auto states = [&](const std::string& more) {
@@ -313,7 +314,7 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
   };
   CHECK(states("") == "cccc");
   const auto one = results_in(tree, "one");
-  CHECK(one.size() == 10);  // 4 assets, 6 new images: the shared ones for each of two assets
+  CHECK(one.size() == 10);  // 4 assets and 6 new images; shared images become new images of each asset
   CHECK(results_in(tree, "out") == one);
   CHECK(results_in(tree, "walked") == one);
   const auto summary = merged(tree, 0);

@@ -1,4 +1,5 @@
-// texremap as a part of its tests (support/loaded_program.hpp): its main function under another name.
+// This file compiles texremap into its tests (support/loaded_program.hpp), with its main function under
+// another name.
 #define main texremap_main
 #include "texremap/commands/main.cpp"
 #undef main

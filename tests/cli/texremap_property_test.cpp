@@ -1,8 +1,8 @@
-// Random texture sets (roles, encodings, formats, pixel types, naming habits, layouts, workflows, factors),
-// converted by every path that must agree: a folder, maps that are named one by one, packed files, numbers,
-// the library, a resumed and a repeated run. All results are compared with closed forms that this test
-// computes by itself, in doubles: equation (2) of Sztrajman et al. 2019 and its inverse on dielectrics and
-// metals, and the paper's formula for Ward to GGX (appendix A, with its errata).
+// This file converts random texture sets (roles, encodings, formats, pixel types, naming conventions,
+// layouts, workflows, factors) in every way that must agree: as a folder, as single maps, as packed files, as
+// numbers, through the library, and by a resumed and a repeated run. It compares all results with closed
+// forms that it computes itself, in doubles: equation (2) of Sztrajman et al. 2019 and its inverse on
+// dielectrics and metals, and the paper's formula for Ward to GGX (appendix A, with its errata).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -43,7 +43,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-// A material with the parameters of its workflow; `width` is what the map holds, after its factor.
+// A Material has the parameters of its workflow. `width` is the value of the map times its factor.
 struct Material {
   Color base_color{}, diffuse{}, specular{};
   double metallic = 0.0, width = 0.0;
@@ -54,7 +54,8 @@ enum class Kind { kBrdf, kMetallic, kSpecular };
 struct Model {
   std::string name;
   Kind kind;
-  std::optional<bool> scaled;  // what diffuse means; none where the model leaves it open
+  // whether diffuse is scaled by 1 - specular; empty if the model does not define it
+  std::optional<bool> scaled;
 };
 
 const Model kWard{"mitsuba/ward", Kind::kBrdf, {}};
@@ -67,12 +68,12 @@ const std::string kPaperFit = REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_gg
 
 constexpr double kF0 = 0.04;
 
-// What all sets of a batch share.
+// A Batch holds what all its sets have in common.
 struct Batch {
   Model from, to;
-  std::string layout;  // empty for the default
+  std::string layout;  // empty: the default
   std::string format, type;
-  std::string encoding;  // --roughness-encoding; empty for the model's
+  std::string encoding;  // --roughness-encoding; empty: the model's encoding
   double width_factor = 1.0, specular_factor = 1.0;
   std::optional<bool> output_srgb;  // --output-color-space
 
@@ -103,7 +104,7 @@ struct Batch {
   }
 };
 
-// A file of a set: the word of its name, its format, and what each of its channels holds.
+// A File is a file of a set: the word of its name, its format, and what each of its channels holds.
 struct File {
   std::string word, extension;
   OIIO::TypeDesc type;
@@ -113,12 +114,12 @@ struct File {
 struct Set {
   std::string name;
   std::vector<File> files;
-  std::vector<Material> materials;  // as the files hold them, linear, before the factor of specular
+  std::vector<Material> materials;  // values that the files store, linear, before the specular factor
   bool is_glossy = false;
   std::string width_file, width_channel;
 };
 
-// --- closed forms
+// --- The closed forms follow.
 
 double to_roughness(const std::string& encoding, double value) {
   if (encoding == "glossiness") return 1.0 - value;
@@ -133,14 +134,14 @@ double from_roughness(const std::string& encoding, double roughness) {
   return roughness;
 }
 
-// The encoding of the maps of a set.
+// Returns the encoding of the width maps of a set.
 std::string source_encoding(const Batch& batch, const Set& set) {
   if (set.is_glossy) return "glossiness";
   if (!batch.encoding.empty()) return batch.encoding;
   return batch.from.kind == Kind::kBrdf ? "alpha" : "roughness";
 }
 
-// What the results of a set hold: names stay true.
+// Returns the encoding of the results' width maps, which their names must show.
 std::string target_encoding(const Batch& batch, const Set& set) {
   const std::string layout = batch.actual_layout();
   if (layout == "specgloss") return "glossiness";
@@ -176,7 +177,7 @@ Material to_specular(const Material& given, bool source_scaled, bool target_scal
   return made;
 }
 
-// Sztrajman et al. 2019, appendix A, Ward to GGX.
+// Converts Ward to GGX by appendix A of Sztrajman et al. 2019.
 Material by_paper(const Material& given, double roughness) {
   const double a = std::clamp(roughness * roughness, 0.01, 1.0);
   Material made;
@@ -186,7 +187,7 @@ Material by_paper(const Material& given, double roughness) {
   return made;
 }
 
-// The expected result, linear; `width` as roughness.
+// Returns the expected result, in linear values. Its `width` is roughness.
 Material expected(const Batch& batch, const Set& set, Material given) {
   const double roughness =
       std::clamp(to_roughness(source_encoding(batch, set), given.width * batch.width_factor), 0.0, 1.0);
@@ -202,7 +203,7 @@ Material expected(const Batch& batch, const Set& set, Material given) {
   return made;
 }
 
-// --- drawing
+// --- The random draws follow.
 
 bool holds_color(const std::string& role) {
   return role.starts_with("base_color") || role.starts_with("diffuse") || role.starts_with("specular");
@@ -231,7 +232,7 @@ Format draw_format(Dice& dice, bool needs_alpha, bool is_grey) {
   return dice.one_of(all);
 }
 
-// The files of a set by one of the habits, and what they hold.
+// Draws the files of a set, named by one of the conventions, and what they hold.
 void draw_files(Dice& dice, const Batch& batch, Set& set) {
   const auto add = [&](const std::string& word, const Words& roles, bool needs_alpha = false) {
     Words channels = {"R", "G", "B", "A"};
@@ -285,7 +286,7 @@ void draw_files(Dice& dice, const Batch& batch, Set& set) {
       }
 }
 
-// Materials that both ends can hold; lossy formats hold one material for all texels.
+// Draws materials that both models can express. Sets in lossy formats have the same material in all texels.
 std::vector<Material> draw_materials(Dice& dice, const Batch& batch, const Set& set) {
   const bool is_flat = std::any_of(set.files.begin(), set.files.end(), [](const File& file) {
     return file.extension == "jpg" || file.extension == "hdr";
@@ -311,7 +312,7 @@ std::vector<Material> draw_materials(Dice& dice, const Batch& batch, const Set& 
   return materials;
 }
 
-// Writes the files, and makes `materials` what they hold.
+// Writes the files, and sets `materials` to the values that they really store.
 void write_set(const Tree& tree, const std::string& folder, Set& set) {
   fs::create_directories(tree.path(folder));
   for (const File& file : set.files) {
@@ -356,11 +357,11 @@ Batch draw_batch(Dice& dice) {
   const std::vector<Output> outputs = {
       {"png", "uint8"}, {"png", "uint16"}, {"tif", "uint8"}, {"tif", "uint16"}, {"tif", "float"},
       {"exr", "half"},  {"exr", "float"},  {"tga", "uint8"}, {"png", ""},       {"tif", ""}};
-  // Packed results need an alpha, which not every format of the inputs has.
+  // Packed results need alpha, which some formats of the inputs lack.
   if (batch.layout == "orm" || batch.layout == "specgloss" || dice.chance(0.5)) {
     const Output output = dice.one_of(outputs);
     batch.format = output.format;
-    // As inputs, packed files may mix.
+    // The pixel type is chosen, because the inputs of a packed file may have different types.
     batch.type = output.type;
   }
   if (dice.chance(0.3)) batch.encoding = dice.one_of<std::string>({"roughness", "alpha", "squared"});
@@ -371,9 +372,9 @@ Batch draw_batch(Dice& dice) {
   return batch;
 }
 
-// --- judging
+// --- The checks follow.
 
-// The file and channels that hold a target parameter in a set's report.
+// A Place is the file and the channels that hold a target parameter, as the report of a set states.
 struct Place {
   TestImage image;
   std::string path;
@@ -411,12 +412,13 @@ bool is_color_stored_as(const Batch& batch, const Place& place) {
   return batch.output_srgb.value_or(is_whole(place.image.spec.format));
 }
 
-// What may differ: a step of the file, and what polynomials, the projection and factors leave.
+// Returns the permitted difference: a step of the file, and the errors of polynomials, projection and
+// factors.
 double allowed(const Place& place, double expected) {
   const OIIO::TypeDesc type = place.image.spec.format;
   const std::string extension = fs::path(place.path).extension().string();
   if (extension == ".jpg") return 4.0 / 255.0;
-  // Three values share an exponent: a step is 1/256 where the largest is 0.5 to 1.
+  // Three values share an exponent, so a step is 1/256 if the largest value is 0.5 to 1.
   if (extension == ".hdr") return 1.0 / 256.0 + 0.012 * std::max(expected, 0.3);
   const double own = 1.5e-3;
   if (type == OIIO::TypeUInt8) return 1.01 / 255.0 + 0.5 * own;
@@ -445,7 +447,7 @@ void check_set(const nlohmann::json& report, const Batch& batch, const Set& set)
     const Place place = place_of(report, batch, set, name);
     const std::string extension = fs::path(place.path).extension().string();
     const bool is_color_role = name != "roughness" && name != "metallic";
-    // glTF readers expect no gamma 1 in a PNG.
+    // glTF viewers expect a PNG without a gamma of 1.
     if (extension == ".png" && !(batch.output_srgb && !*batch.output_srgb))
       CHECK(place.image.spec.get_string_attribute("oiio:ColorSpace") != "Linear");
     if (name == "roughness" && batch.actual_layout() == "separate")
@@ -467,7 +469,7 @@ void check_set(const nlohmann::json& report, const Batch& batch, const Set& set)
   }
 }
 
-// --- paths
+// --- The ways to convert follow.
 
 ProcessResult run_batch(const Tree& tree, const Batch& batch, const std::string& out,
                         const Words& more = {}) {
@@ -482,10 +484,10 @@ std::map<std::string, std::string> content(const Tree& tree, const std::string& 
   return files;
 }
 
-// The maps of a set, named one by one.
+// Converts the maps of a set as single options.
 void check_single(const Tree& tree, const Batch& batch, const Set& set, const nlohmann::json& report) {
   Words words = "convert --json -o " + tree.path("single") + batch.words();
-  std::map<std::string, std::string> maps;  // by role
+  std::map<std::string, std::string> maps;  // keyed by role
   for (const File& file : set.files) {
     const std::string path = tree.path("in/" + set.name + "_" + file.word + "." + file.extension);
     for (std::size_t c = 0; c < file.roles.size(); ++c) {
@@ -507,7 +509,7 @@ void check_single(const Tree& tree, const Batch& batch, const Set& set, const nl
     const std::string option = role == "base_color" ? "base-color" : role;
     words.insert(words.end(), {"--" + option, map});
   }
-  if (set.is_glossy) {  // --roughness-encoding speaks of roughness
+  if (set.is_glossy) {  // this option is only for maps of roughness
     const auto encoding = std::find(words.begin(), words.end(), "--roughness-encoding");
     if (encoding != words.end()) words.erase(encoding, encoding + 2);
   }
@@ -530,7 +532,7 @@ std::string numbers(const Color& color) {
   return number(color[0]) + "," + number(color[1]) + "," + number(color[2]);
 }
 
-// The numbers of one texel, in place of maps.
+// Converts the numbers of one texel instead of maps.
 void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
   const Material& given = set.materials.front();
   Words words = "convert --json";
@@ -550,7 +552,7 @@ void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
   const auto values = nlohmann::json::parse(result.output).at("values");
   Material wanted = expected(batch, set, given);
   for (const std::string& name : targets_of(batch.to)) {
-    if (name == "roughness") continue;  // its encoding is that of the name that is printed
+    if (name == "roughness") continue;  // its encoding depends on the name that is printed
     if (name == "metallic") {
       CHECK(values.at(name).get<double>() == Approx(wanted.metallic).margin(2e-3));
       continue;
@@ -573,7 +575,7 @@ WorkflowEnd end_of(const Batch& batch, const Model& model) {
   return end;
 }
 
-// The library, on floats in memory.
+// Converts by the library, on floats in memory.
 void check_library(const Batch& batch, const Set& set) {
   static const std::unique_ptr<Converter> paper = make_lowered_converter(load_fit(kPaperFit));
   std::unique_ptr<Converter> workflow;
@@ -623,7 +625,7 @@ void check_library(const Batch& batch, const Set& set) {
   }
 }
 
-// A resumed run changes nothing, and makes anew what was damaged and what changed.
+// A resumed run changes nothing except damaged results and results of changed inputs, which it makes again.
 void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
   const auto resumed = [&] { return run_batch(tree, batch, "out", "").output; };
   const auto before = content(tree, "out");
@@ -658,7 +660,7 @@ void check_batch(std::uint64_t seed) {
     write_set(tree, "in", set);
     sets.push_back(std::move(set));
   }
-  // An encoding of roughness that no map holds is an error of its own.
+  // If all sets are glossy, no map has roughness, so texremap would refuse --roughness-encoding.
   Batch used = batch;
   if (std::all_of(sets.begin(), sets.end(), [](const Set& set) { return set.is_glossy; }))
     used.encoding.clear();

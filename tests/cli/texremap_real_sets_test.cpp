@@ -1,4 +1,4 @@
-// Converts real texture sets: BoomBox, brass, a chess king and six tiles.
+// This file converts real texture sets: BoomBox, brass, a chess king and six tiles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kSpecular = 0.04f;
 
-// The converted value for each of the 256 values of a roughness map (square root of alpha).
+// Returns the converted value for each of the 256 values of a roughness map (square root of alpha).
 std::array<float, 256> converted_roughness() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -27,7 +27,8 @@ std::array<float, 256> converted_roughness() {
   return table;
 }
 
-// The largest and mean difference between channel `channel` of `out` and the converted channel of `in`.
+// Returns the largest and the mean difference between channel `channel` of `out` and the converted channel of
+// `in`.
 std::pair<double, double> difference(const TestImage& in, const TestImage& out, std::size_t channel) {
   REQUIRE(in.bytes.size() == out.bytes.size());
   const std::array<float, 256> expected = converted_roughness();
@@ -41,7 +42,8 @@ std::pair<double, double> difference(const TestImage& in, const TestImage& out, 
   return {largest, sum / static_cast<double>(in.bytes.size() / channels)};
 }
 
-constexpr double kHalfStep = 0.501 / 255.0;  // 8 bits round by half a step, and floats add a small error
+// rounding to 8 bits gives half a step, and floats add a small error
+constexpr double kHalfStep = 0.501 / 255.0;
 
 Words words(const std::string& maps) {
   return kConversion + " --specular 0.04 --only roughness --roughness-encoding roughness " + maps;
@@ -67,12 +69,13 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
                                                    "BoomBox_occlusionRoughnessMetallic.png",
                                                    "brass_roughness.jpg", "king_black_base_color.jpg",
                                                    "king_black_roughness.jpg"});
-  // The metallic map of the king belongs to both kings and is not a set.
+  // The metallic map of the king belongs to both kings, so it is not a set.
   CHECK_THAT(result.errors, Contains("/king_shared: no roughness or glossiness map found"));
   for (const char* name : {"brass", "king_black"})
     CHECK_THAT(result.errors,
                Contains(std::string(name) + "_roughness.jpg: jpeg compression changes values (--format png"));
-  CHECK(count_of(result.errors, "compression changes values") == 2);  // not for the PNG
+  // the PNG needs no warning about compression
+  CHECK(count_of(result.errors, "compression changes values") == 2);
 
   const auto in = [&](const char* name) { return read_image(folder / name); };
   const auto out = [&](const char* name) { return tree.image(std::string("out/") + name); };
@@ -81,8 +84,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   CHECK(same_channel(packed, packed_out, 0));
   CHECK(same_channel(packed, packed_out, 2));
   CHECK(difference(packed, packed_out, 1).first <= kHalfStep);
-  // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step with random sign, together at
-  // most 4 steps.
+  // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step with random signs. The sum is
+  // at most 4 steps.
   for (const char* name : {"brass_roughness.jpg", "king_black_roughness.jpg"}) {
     const auto [largest, mean] = difference(in(name), out(name), 0);
     CHECK(largest <= kHalfStep + 4.0 / 255.0);
@@ -100,7 +103,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["texels"] == 6 * 512 * 512);
   CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1012", "1013"});
-  CHECK(count_of(result.errors, " texels in ") == 1 + 1);  // for the set, and for the run
+  CHECK(count_of(result.errors, " texels in ") == 1 + 1);  // once for the set, once for the run
   for (const auto& entry : fs::directory_iterator(tiles)) {
     INFO(entry.path());
     const TestImage in = read_image(entry.path()),

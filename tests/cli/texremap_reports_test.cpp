@@ -1,4 +1,4 @@
-// What users reported, each with what is right.
+// This file tests cases that users reported, each with the correct result.
 #include <filesystem>
 #include <fstream>
 
@@ -18,7 +18,7 @@ class ReportSession : public Session {
     fs::create_directories(fs::path(path(name)).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
   }
-  // 32x32 texels of 8 bits: noise, but for channels with a value.
+  // Writes an image of 32x32 texels of 8 bits. Channels without a value are noise.
   void image(const std::string& name, const std::vector<std::string>& channels,
              const std::map<int, float>& values = {}, const OIIO::ParamValueList& tags = {}) const {
     fs::create_directories(fs::path(path(name)).parent_path());
@@ -26,13 +26,13 @@ class ReportSession : public Session {
     for (const OIIO::ParamValue& tag : tags) spec.attribute(std::string(tag.name()), tag.type(), tag.data());
     make(name, spec, [&](int x, int y, int c) { return values.contains(c) ? values.at(c) : noise(x, y, c); });
   }
-  // A file with one material; its textures are the images in their order.
+  // Writes a file with one material, whose textures are the images in their order.
   void gltf(const std::string& name, const std::string& material, const std::string& textures,
             const std::string& images) const {
     put(name, R"({"asset":{"version":"2.0"},"materials":[{"name":"m",)" + material + R"(}],"textures":[)" +
                   textures + R"(],"images":[)" + images + "]}");
   }
-  // `rule confidence` of each finding.
+  // Returns `rule confidence` for each finding.
   std::vector<std::string> findings(const std::string& paths) const {
     const ProcessResult run = texremap("check " + paths + " --json --quiet --fail-on possible");
     INFO(run.errors);
@@ -61,7 +61,8 @@ TEST_CASE("reports: 04 check looks at the image of a texture that convert reads"
   };
   for (const std::string extension : {"png", "webp"})
     session.make("n." + extension, test_spec(32, 32, kReportColor, OIIO::TypeUInt8), normals);
-  // OpenImageIO spoils it, conversions of assets do not.
+  // OpenImageIO changes the colors of a WebP with alpha, so sets refuse it. Conversions of assets read it
+  // correctly.
   session.make("alpha.webp", test_spec(32, 32, kReportAlpha, OIIO::TypeUInt8),
                [&](int x, int y, int c) { return c == 3 ? (x + y == 0 ? 0.5f : 1.0f) : normals(x, y, c); });
   session.put("n.ktx2", "\xabKTX 20\xbb\r\n\x1a\n and no more");
@@ -74,7 +75,7 @@ TEST_CASE("reports: 04 check looks at the image of a texture that convert reads"
                  R"({"uri":")" + image + "\"}");
     CHECK(session.findings("webp.gltf") == wrong);
   }
-  // An image that cannot be read is passed over for another one of the texture.
+  // If an image cannot be read, another image of the texture is used.
   session.gltf("both.gltf", material, R"({"source":1,"extensions":{"KHR_texture_basisu":{"source":0}}})",
                R"({"uri":"n.ktx2"},{"uri":"n.png"})");
   CHECK(session.findings("both.gltf") == wrong);
@@ -110,17 +111,17 @@ TEST_CASE("reports: 05 what a factor of 0 turns off cannot be wrong", "[slow]") 
         R"("KHR_materials_specular":{"specularFactor":1,"specularColorFactor":[1,1,1]})",
         R"("KHR_materials_ior":{"ior":1.5})", R"("KHR_materials_volume":{"thicknessFactor":1})"})
     CHECK(found("c.png", kNotMetal + R"(},"extensions":{)" + off + "}", " --for gltf") == Found{});
-  // Nothing but the base color of an unlit material is read.
+  // Programs read only the base color of an unlit material.
   CHECK(found("c.png", R"("normalTexture":{"index":0},"extensions":{"KHR_materials_unlit":{}})") == Found{});
 
-  // What is lost, or was forgotten, is still a finding.
+  // If a factor of 0 hides a texture by mistake, this is still a finding.
   CHECK(found("c.png", R"("pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0,)"
                        R"("metallicRoughnessTexture":{"index":0}})") == Found{"factor-zero certain"});
   CHECK(found("c.png", R"("emissiveTexture":{"index":0})") == Found{"factor-zero possible"});
   const std::string color = kNotMetal + R"(,"baseColorTexture":{"index":0}},"occlusionTexture":{"index":0)";
   CHECK(found("c.png", color + R"(,"strength":0})") == Found{});
   CHECK(found("c.png", color + "}") == Found{"wrong-texture certain"});
-  // Unity reads blue whatever the factor is.
+  // Unity reads blue even if the factor is 0.
   CHECK(found("c.png", kNotMetal + R"(,"metallicRoughnessTexture":{"index":0}})", " --for unity") ==
         Found{"factor-ignored likely"});
 }
@@ -138,7 +139,7 @@ TEST_CASE("reports: 06 formats without a place for a color space have no tag", "
   OIIO::ParamValueList srgb;
   srgb.attribute("oiio:ColorSpace", "sRGB");
   for (const std::string extension : {"webp", "tga", "bmp", "jpg", "tif", "exr"}) {
-    const bool is_tagged = extension == "jpg" || extension == "tif";  // by Exif
+    const bool is_tagged = extension == "jpg" || extension == "tif";  // their Exif data has a color space
     for (const std::string role : {"Roughness", "Metallic", "Normal", "AO"}) {
       session.image(extension + "/a_" + role + "." + extension, kReportColor, {{2, 0.99f}}, srgb);
       session.image(extension + "_plain/a_" + role + "." + extension, kReportColor, {{2, 0.99f}});
@@ -150,7 +151,7 @@ TEST_CASE("reports: 06 formats without a place for a color space have no tag", "
   }
 }
 
-// texremap_advice_test.cpp types the command of every rule.
+// texremap_advice_test.cpp runs the command of every rule.
 TEST_CASE("reports: 09 the command for an asset converts it") {
   const ReportSession session;
   const auto advice = [&](const std::string& extension, const std::string& reader) {
@@ -198,10 +199,10 @@ TEST_CASE("reports: 17 a number replaces a map only if all its tiles and channel
   CHECK(session.findings("two") == Found{});
   CHECK(session.findings("one") == Found{"constant-map possible", "constant-map possible"});
   CHECK(session.findings("map") == Found{"constant-map certain", "constant-map certain"});
-  // A packed map is there for its other channels.
+  // A packed map is needed for its other channels, even if one is constant.
   session.image("packed/a_ORM.png", kReportColor, {{1, 0.5f}, {2, 0.0f}});
   CHECK(session.findings("packed --ignore channel-order") == Found{});
-  // Tiles may differ in size; maps of one tile may not.
+  // Tiles may differ in size, but the maps of one tile may not.
   fs::create_directories(session.path("sizes"));
   session.make("sizes/a_Roughness.1001.png", test_spec(32, 32, {"Y"}, OIIO::TypeUInt8), noise);
   session.make("sizes/a_Roughness.1002.png", test_spec(16, 16, {"Y"}, OIIO::TypeUInt8), noise);
@@ -221,7 +222,7 @@ TEST_CASE("reports: 18 metal has no reflectance but its base color") {
   for (const std::string extension :
        {R"("KHR_materials_specular":{"specularFactor":0.5})", R"("KHR_materials_ior":{"ior":1000})",
         R"("KHR_materials_transmission":{"transmissionFactor":1})"}) {
-    CHECK(found("", extension) == Found{});  // the default is metal
+    CHECK(found("", extension) == Found{});  // metallic is 1 by default
     CHECK(found(R"("metallicFactor":1)", extension) == Found{});
     CHECK_FALSE(found(R"("metallicFactor":0)", extension).empty());
   }
@@ -229,14 +230,14 @@ TEST_CASE("reports: 18 metal has no reflectance but its base color") {
 
 TEST_CASE("reports: check fails on certain findings, or on others by --fail-on") {
   const ReportSession session;
-  session.image("set/a_Metallic.png", kReportGrey, {{0, 0.5f}});  // possible
+  session.image("set/a_Metallic.png", kReportGrey, {{0, 0.5f}});  // a possible finding
   CHECK(session.texremap("check set").exit_code == 0);
   CHECK(session.texremap("check set").output.find("[metallic-greys, possible]") != std::string::npos);
   CHECK(session.texremap("check set").errors.find("1 finding, none of which is certain") !=
         std::string::npos);
   CHECK(session.texremap("check set --fail-on likely").exit_code == 0);
   CHECK(session.texremap("check set --fail-on possible").exit_code == 1);
-  session.image("set/a_Roughness.png", kReportGrey, {{0, 0.5f}});  // certain
+  session.image("set/a_Roughness.png", kReportGrey, {{0, 0.5f}});  // a certain finding
   CHECK(session.texremap("check set").exit_code == 1);
   CHECK(session.texremap("check set --fail-on never").exit_code == 2);
 }
@@ -254,7 +255,7 @@ TEST_CASE("reports: an asset is converted with as few words as people type", "[s
   REQUIRE(two.exit_code == 0);
   const nlohmann::json made = nlohmann::json::parse(session.content("new/out.gltf"));
   CHECK(made["materials"][0].contains("pbrMetallicRoughness"));
-  // Only what converted materials used is gone.
+  // Only the images that converted materials used are removed.
   CHECK(made["images"].size() == 2);
   CHECK_FALSE(fs::exists(session.path("new/s.png")));
   const ProcessResult again = session.texremap("convert in.gltf new/out.gltf");

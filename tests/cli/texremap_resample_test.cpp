@@ -1,4 +1,5 @@
-// Maps of several sizes. The reference for values between texels is the resampling of OpenImageIO.
+// This file tests maps of different sizes. The resampling of OpenImageIO is the reference for values between
+// texels.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ ProcessResult convert(const Session& session, Words words, const std::string& fo
   return session.texremap(Words("convert --from mitsuba/ward --to mitsuba/as") + words + "-o " + folder);
 }
 
-// Writes the image `name` of the session at another size, interpolated linearly, as floats.
+// Writes the image `name` of the session at another size, linearly interpolated, as floats.
 void write_resampled(const Session& session, const std::string& name, int width, int height,
                      const std::string& result) {
   const OIIO::ImageBuf source(session.path(name));
@@ -51,8 +52,8 @@ TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO d
   REQUIRE(out.spec.width == large);
   REQUIRE(out.spec.height == large - 7);
   CHECK(out.spec.tile_width == small_spec.tile_width);
-  CHECK(largest_difference(out, expected) < 2e-6f);  // both interpolate in single precision
-  // Target alpha depends on specular, so it carries the same difference.
+  CHECK(largest_difference(out, expected) < 2e-6f);  // both interpolate with floats
+  // Target alpha depends on the resampled specular, so it may differ as much.
   CHECK(largest_difference(session.image("out/r.exr"), session.image("expected/r.exr")) < 2e-6f);
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("texremap --resample: sRGB color is interpolated as linear light") {
   require_success(
       convert(session, "--roughness r.png --specular s.png --color-space srgb --resample", "out"));
   const TestImage out = session.image("out/s.png");
-  // A quarter of the way from black to white, in linear light.
+  // The texel is a quarter of the way from black to white, in linear light.
   const float linear = converted_texel(as_stored(0.3f, OIIO::TypeUInt8), {0.25f, 0.25f, 0.25f})[1];
   const double stored = linear_to_srgb(static_cast<double>(linear));
   CHECK(out.at(1, 0, 0) == as_stored(static_cast<float>(stored), OIIO::TypeUInt8));

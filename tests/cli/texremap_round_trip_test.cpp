@@ -1,5 +1,5 @@
-// Converts real materials to the specular workflow and back. Texels must return to one step of 8 bits, or the
-// report must have a reason.
+// This file converts real materials to the specular workflow and back. Each texel must come back within a
+// step of 8 bits, or the report must give a reason.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,37 +20,38 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The arguments of `convert` for a metallic material.
+// A MaterialMaps holds the arguments of `convert` for a metallic material.
 struct MaterialMaps {
   std::string name, base_color, metallic, roughness, occlusion;
 };
 
-// Counts of texels that return, and of others with and without a reason in the maps of the report.
+// A RoundTrip counts the texels that come back. It also counts other texels, with and without a reason in the
+// maps of the report.
 struct RoundTrip {
   std::size_t texels = 0, returned = 0;
-  std::size_t unlisted = 0;     // did not return, without a doubt as reason
-  std::size_t unexplained = 0;  // did not return, and is a different specular material
+  std::size_t unlisted = 0;     // does not come back, although the report does not call it uncertain
+  std::size_t unexplained = 0;  // does not come back, and also differs as a specular material
   int largest_roughness = 0;
-  double most = 1.0;  // returned share if each stored texel becomes the best answer for all its sources
+  double most = 1.0;  // largest possible fraction of texels that come back, for any method
 };
 
 int byte(const TestImage& image, std::size_t texel, std::size_t channel) {
   return image.bytes[texel * static_cast<std::size_t>(image.spec.nchannels) + channel];
 }
 
-// In steps of 8 bits.
+// Converts from steps of 8 bits, and back.
 double linear(double stored) { return srgb_to_linear(stored / 255.0); }
 double in_srgb(double value) { return 255.0 * linear_to_srgb(value); }
 
-// The rounding errors of base color and metallic may add up.
+// This allows for the rounding errors of base color and metallic, which may add up.
 constexpr double kMostSteps = 1.5;
 
 bool is_seen(double a, double b) {
-  constexpr double kDarkDifference = 0.5 / 255.0;  // linear: half a step of a display, relative to white
+  constexpr double kDarkDifference = 0.5 / 255.0;  // linear: half a step of a display, as a fraction of white
   return std::abs(a - b) > kMostSteps && std::abs(linear(a) - linear(b)) > kDarkDifference;
 }
 
-// Diffuse and specular of a metallic material by equation (2), in steps of 8 bits in sRGB.
+// Returns diffuse and specular of a metallic material by equation (2), in steps of 8 bits in sRGB.
 std::array<double, 6> specular_bytes(const std::array<int, 3>& base, int metallic, bool is_gltf) {
   const double m = metallic / 255.0;
   std::array<double, 6> result{};
@@ -65,13 +66,13 @@ std::array<double, 6> specular_bytes(const std::array<int, 3>& base, int metalli
   return result;
 }
 
-using Answer = std::array<int, 4>;  // base color and metallic, 8 bits
+using Answer = std::array<int, 4>;  // base color and metallic, in steps of 8 bits
 
 bool is_same(const Answer& a, const Answer& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](int x, int y) { return std::abs(x - y) <= 1; });
 }
 
-// The largest number of these texels that one answer fits.
+// Returns how many of the counted texels a single answer can satisfy.
 std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   std::size_t most = 0;
   for (const auto& entry : counts)
@@ -86,7 +87,8 @@ std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   return most;
 }
 
-// The upper bound for any method that sees the stored maps only: equal stored texels get equal results.
+// Returns an upper bound for any method that only reads the stored maps, because such a method treats equal
+// stored texels equally.
 double most_that_return(const std::vector<Answer>& given, const TestImage& diffuse,
                         const TestImage& specular) {
   const auto bytes = [](const TestImage& image) { return image.bytes.size() / image.values.size(); };
@@ -107,8 +109,8 @@ double most_that_return(const std::vector<Answer>& given, const TestImage& diffu
 
 std::string words_of(const std::string& file, const char* channel) { return file + channel; }
 
-// Of a map `FILE:CHANNEL` or `FILE`: every fourth texel in both directions, in a file of the folder. A full
-// campaign takes the map as it is.
+// Writes every fourth texel of a map `FILE:CHANNEL` or `FILE`, in both directions, into the folder. A full
+// campaign uses the whole map.
 std::string thinned(const fs::path& folder, const std::string& word) {
   constexpr int kStep = 4;
   if (is_full_campaign()) return word;
@@ -123,7 +125,7 @@ std::string thinned(const fs::path& folder, const std::string& word) {
   return thin.string() + (colon == std::string::npos ? "" : word.substr(colon));
 }
 
-// `type` is the pixel type of the specular maps between.
+// `type` is the pixel type of the specular maps in the middle of the round trip.
 RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string>& models,
                      const std::string& type) {
   const Session session;
@@ -170,10 +172,11 @@ RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string
     const bool is_back = difference <= 1 && color <= 1;
     result.returned += is_back;
     if (is_back) continue;
-    // Metallic within the interval of the map metallic_uncertainty counts as listed, too.
+    // A difference within the interval of the map metallic_uncertainty is in the report, too.
     const bool could_be = static_cast<float>(difference) <= 255.0f * width.values[i] + 1.0f;
     result.unlisted += issues.values[i] == 0.0f && !could_be;
-    // The reason: both materials have the same specular form, to a step of 8 bits, or are too dark.
+    // A texel may differ if both materials have the same specular form within a step of 8 bits, or are too
+    // dark.
     const auto stored = [&](const TestImage& image, int metallic) {
       return specular_bytes({byte(image, i, 0), byte(image, i, 1), byte(image, i, 2)}, metallic,
                             models[0] == "gltf");
@@ -214,10 +217,10 @@ TEST_CASE("texremap round trips: BoomBox and a chess king return from the specul
          {std::vector<std::string>{"gltf", "gltf-specgloss"}, {"metallic", "specular"}})
       for (const char* type : {"uint8", "uint16"}) {
         if (type == std::string("uint16") && models[0] == "gltf")
-          continue;  // equal to the other pair; skipped to save time
+          continue;  // skipped to save time, because it equals the other pair
         const RoundTrip result = round_trip(*given, models, type);
-        // The goal is 99.9 %, unless the stored maps cannot distinguish so many texels, as the 8 bits of
-        // BoomBox.
+        // The goal is 99.9 %. It is lower if many texels are equal in the stored maps, as in BoomBox with its
+        // 8 bits.
         CHECK(result.returned >= result.texels * (result.most > 0.999 ? 999 : 996) / 1000);
         CHECK(result.unlisted == 0);
         CHECK(result.unexplained <= (given == &box ? result.texels / 5000 : 0));

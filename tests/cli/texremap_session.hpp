@@ -1,4 +1,4 @@
-// Runs texremap in a temporary folder with images to convert.
+// This file runs texremap in a temporary folder with images to convert.
 #pragma once
 
 #include <Imath/half.h>
@@ -21,10 +21,10 @@
 
 namespace remap {
 
-// Beside the results of a run.
+// This file lies next to the results of a run.
 inline constexpr const char* kJournal = ".texremap.jsonl";
 
-// Into the folder `out`.
+// This conversion writes into the folder `out`.
 inline const std::string kConversion = "convert --from mitsuba/ward --to mitsuba/as -o out";
 
 class Session : public CommandFolder {
@@ -46,7 +46,7 @@ class Session : public CommandFolder {
     write_image(path("r." + extension), test_spec(size, size, {"Y"}, type), noise);
     write_image(path("s." + extension), test_spec(size, size, {"R", "G", "B"}, type), noise);
   }
-  // The number of files in `out` besides the journal, without and with hidden ones.
+  // Return the number of files in `out` besides the journal, without and with hidden files.
   std::size_t result_count() const { return count(false); }
   std::size_t file_count() const { return count(true); }
 
@@ -70,7 +70,7 @@ inline std::array<float, 4> converted_texel(float roughness, const std::array<fl
   return result;
 }
 
-// `value` as a file of this pixel type stores it.
+// Returns `value` as a file of this pixel type stores it.
 inline float as_stored(float value, OIIO::TypeDesc type) {
   const auto whole = [value](double largest) {
     const double clipped = std::isnan(value) ? 0.0 : std::min(std::max(static_cast<double>(value), 0.0), 1.0);
@@ -84,11 +84,11 @@ inline float as_stored(float value, OIIO::TypeDesc type) {
 
 inline bool is_whole(OIIO::TypeDesc type) { return type == OIIO::TypeUInt8 || type == OIIO::TypeUInt16; }
 
-// The linear value of a color: whole numbers are sRGB.
+// Returns the linear value of a color. Integers are sRGB.
 inline float color_read(float stored, OIIO::TypeDesc type) {
   return is_whole(type) ? static_cast<float>(srgb_to_linear(static_cast<double>(stored))) : stored;
 }
-// Whether `stored` is the color `value` to half a step, and what floats leave open of 16 bits.
+// Returns true if `stored` is the color `value`, within half a step and the rounding of floats in 16 bits.
 inline bool is_color_stored(float stored, float value, OIIO::TypeDesc type) {
   if (!is_whole(type)) return stored == as_stored(value, type);
   const double step = 1.0 / (type == OIIO::TypeUInt8 ? 255.0 : 65535.0);

@@ -1,4 +1,4 @@
-// What users reported, each with the result that is right.
+// This file tests sets that users reported, each with the correct result.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_tree.hpp"
@@ -8,15 +8,15 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A folder of sets for one report.
+// A ReportedSets is a folder of sets for one report.
 class ReportedSets : public Tree {
  public:
-  // A map of one color.
+  // Writes a map of one color.
   void plain(const std::string& name, const std::vector<int>& values, int size = 16) const {
     drawn(
         name, values.size(), [&](int, int, int c) { return values[static_cast<std::size_t>(c)]; }, size);
   }
-  // A map of 8 bits, by its steps.
+  // Writes an 8-bit map. `steps` returns the integers of its texels.
   template <typename Steps>
   void drawn(const std::string& name, std::size_t channels, const Steps& steps, int size = 16) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
@@ -29,7 +29,7 @@ class ReportedSets : public Tree {
                    OIIO::TypeUInt8),
          [&](int x, int y, int c) { return static_cast<float>(steps(x, y, c)) / 255.0f; });
   }
-  // The first texel, in steps of 8 bits.
+  // Returns the first texel, in steps of 8 bits.
   std::vector<int> texel(const std::string& name) const {
     const TestImage found = image(name);
     return {found.bytes.begin(), found.bytes.begin() + found.spec.nchannels};
@@ -75,7 +75,7 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
   CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
         (extension == "png" ? 0 : 3));
 
-  // A map with colors is refused, with an option that works.
+  // A map with different colors is refused, and the message proposes an option that works.
   sets.drawn(
       map, 3, [](int x, int, int c) { return 100 + (c == 0 ? 4 * x : 0); }, 32);
   const ProcessResult refused = sets.texremap(words + "--force");
@@ -96,7 +96,7 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
   CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for every set"));
   for (const std::string name : {"black", "white"})
     CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
-  // A name without * is also looked up beside the maps of each set.
+  // A name without * is also searched in the folder of each set's maps.
   require_success(
       sets.texremap("convert in --from metallic --to gltf --metallic king_shared_metallic.png -o two"));
   CHECK(sets.texremap("convert in --from metallic --to gltf --metallic nothing.png -o three").exit_code == 1);
@@ -104,7 +104,7 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
 
 namespace {
 
-// How an engine reads green: up, down, or as it was.
+// A Green is the direction of green that an engine reads: up, down, or as in the input.
 enum class Green { kUp, kDown, kKept };
 constexpr std::array<std::pair<const char*, Green>, 9> kEngines = {{{"gltf", Green::kUp},
                                                                     {"unity", Green::kUp},
@@ -122,7 +122,7 @@ void write_rock(const ReportedSets& sets, const std::string& normal) {
   sets.plain("in/" + normal, {128, 100, 255});
 }
 
-// `--to gltf` means the material alone.
+// `--to gltf` only chooses the material, so the layout must be given.
 Words words_to(const std::string& engine) {
   return "--to " + engine + (engine == "gltf" ? " --layout gltf" : "");
 }
@@ -230,7 +230,7 @@ TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[
   const std::string verbose = require_success(sets.texremap(words + "--verbose")).errors;
   CHECK(lines(verbose) >= 4 * kSets);
   CHECK_THAT(verbose, Contains("metallic undetermined, no visible effect"));
-  // A blue metal with a red diffuse is no material of metal-rough.
+  // Metal-rough cannot express a blue metal with red diffuse.
   sets.plain("in/rock0x_specular.png", {20, 20, 230}, 8);
   sets.plain("in/rock0x_diffuse.png", {230, 20, 20}, 8);
   CHECK_THAT(

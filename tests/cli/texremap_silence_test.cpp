@@ -1,5 +1,5 @@
-// Nothing wrong in silence: the color spaces of results, what names of files say, and conventions
-// there and back.
+// This file tests that no mistake is silent: the color spaces of results, what file names state, and
+// conventions after a round trip.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ void write_flat(const Tree& tree, const std::string& name, const std::vector<flo
             [&](int, int, int c) { return values[static_cast<std::size_t>(c)]; });
 }
 
-// The first texel, in steps of 1/255.
+// Returns the first texel, in steps of 1/255.
 std::vector<int> texel(const Tree& tree, const std::string& name) {
   const TestImage image = tree.image(name);
   std::vector<int> values;
@@ -63,13 +63,13 @@ TEST_CASE("texremap silence: a color that is made from numbers or EXR is sRGB in
     CHECK_THAT(result.errors, Contains("base_color written as srgb"));
     return texel(tree, "out/base_color." + format);
   };
-  const std::vector<int> srgb = {188, 124, 63};  // IEC 61966-2-1
+  const std::vector<int> srgb = {188, 124, 63};  // by the curve of IEC 61966-2-1
   CHECK(converted("--base-color 0.5,0.2,0.05 --roughness r.png") == srgb);
   CHECK(converted("--base-color b.exr --roughness r.png") == srgb);
   CHECK(converted("--base-color b.exr --roughness r.exr") == srgb);
-  CHECK(texel(tree, "out/roughness." + format).front() == 128);  // data
+  CHECK(texel(tree, "out/roughness." + format).front() == 128);  // data has no curve
   if (format == "png") {
-    // What glTF readers expect: color has sRGB, and data no gamma that says linear.
+    // This is what glTF viewers expect: color is tagged sRGB, and data has no gamma tag that means linear.
     CHECK(has_chunk(tree, "out/base_color.png", "sRGB"));
     for (const char* name : {"out/roughness.png", "out/metallic.png"}) {
       CHECK_FALSE(has_chunk(tree, name, "gAMA"));
@@ -111,7 +111,7 @@ TEST_CASE("texremap silence: a color space on request, and back without a word")
   CHECK_THAT(linear.errors,
              Contains("base_color read as srgb, base_color written as linear (--output-color-space)"));
   CHECK(texel(tree, "linear/base_color." + format) == std::vector<int>{128, 51, 13});
-  // The file says linear, and is read so.
+  // The file is tagged linear, and is read as linear.
   const ProcessResult back = require_success(
       convert(tree, "--from usd-preview-surface --to gltf --base-color linear/base_color." + format +
                         " --metallic 1 --roughness 0.5 --output-color-space srgb -o back"));
@@ -140,7 +140,7 @@ TEST_CASE(
                                  "--base-color 0.5,0.2,0.05 --metallic 0 --roughness " + roughness);
     CHECK(plastic["values"]["metallic"].get<double>() == 0.0);
     CHECK(plastic["values"]["base_color"][0].get<double>() == Approx(0.5 / 0.96).margin(1e-3));
-    // Metallic between the two follows, without a jump at 0.
+    // Metallic between 0 and 1 follows the same formula, without a jump at 0.
     const auto mixed = numbers("threejs/standard", "gltf",
                                "--base-color 0.8,0.6,0.4 --metallic 0.02 --roughness " + roughness);
     CHECK(mixed["values"]["metallic"].get<double>() == Approx(0.02).margin(0.01));

@@ -1,4 +1,4 @@
-// A folder of texture sets for texremap to convert.
+// This file writes a folder of texture sets that texremap converts.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// The lines of a folder's report as one object: the sets by name, what was left out, the conversion and the
-// summary.
+// Returns the lines of a folder's report as one object: the sets by name, what was skipped, the conversion
+// and the summary.
 inline nlohmann::json tree_report(const std::string& output) {
   nlohmann::json report = {{"sets", nlohmann::json::array()}, {"skipped", nlohmann::json::array()}};
   std::istringstream lines(output);
@@ -30,7 +30,7 @@ inline nlohmann::json tree_report(const std::string& output) {
   return report;
 }
 
-// The states of the sets, by their first letters: converted, done before, failed.
+// Returns the states of the sets by their first letters: c (converted), d (done before), f (failed).
 inline std::string set_states(const std::string& output) {
   std::string letters;
   const auto report = tree_report(output);
@@ -50,7 +50,7 @@ class Tree : public Session {
   ProcessResult convert_tree(const Words& more = {}, const ProcessLimits& limits = {}) const {
     return texremap(kConversion + " in --color-space linear" + more, limits);
   }
-  // Every file below `out` besides the journal, relative to it.
+  // Returns every file below `out` except the journal, relative to `out`.
   std::vector<std::string> results() const {
     std::vector<std::string> names;
     std::error_code none;

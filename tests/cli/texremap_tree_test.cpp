@@ -1,4 +1,5 @@
-// Folders of texture sets, tiles and frames: the sets found, the files written, and failures of single sets.
+// This file tests folders of texture sets, tiles and frames: the sets found, the files written, and failures
+// of single sets.
 #include "cli/texremap_tree.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ TEST_CASE("texremap tree: sets of every habit are converted by the meaning of th
   CHECK_THAT(result.errors, Contains("6 sets converted by mitsuba_ward_to_mitsuba_as, 0 failed"));
   CHECK_THAT(result.errors, Contains("roughness maps are read as alpha, the parameter of mitsuba/ward"));
 
-  // Expected values of the specular-glossiness set: glossiness stays glossiness.
+  // Glossiness stays glossiness in the specular-glossiness set.
   const std::string name = "gltf/chair_specularGlossiness.png";
   const TestImage in = tree.image("in/" + name), out = tree.image("out/" + name);
   for (int x = 0; x < kSize; ++x) {
@@ -118,7 +119,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set", "[slow]") {
              Contains("hero, tile 1011: no specular map found (hero_Specular.<UDIM>.exr lacks this tile)"));
   CHECK(tree.results().size() == 4);
 
-  // The same by a pattern; the constant serves every tile.
+  // The same maps can be given by a pattern. The constant then applies to every tile.
   const ProcessResult named =
       require_success(tree.texremap("convert --from mitsuba/ward --to mitsuba/as --roughness "
                                     "in/hero_Roughness.<UDIM>.exr --specular 0.04 --json -o named"));
@@ -167,7 +168,7 @@ TEST_CASE("texremap tree: makes only missing and changed sets", "[slow]") {
   CHECK(states({}) == "dddd");
   fs::remove(tree.path(named("out/b_spec")));
   CHECK(states({}) == "dcdd");
-  // A faulty and a changed input, a damaged result.
+  // One input is faulty, another one has changed, and a result is damaged.
   tree.map(named("in/c_rough"), kColor);
   CHECK(states({}) == "ddfd");
   tree.make(named("in/c_rough"), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
@@ -181,7 +182,7 @@ TEST_CASE("texremap tree: makes only missing and changed sets", "[slow]") {
     CHECK(states({}) == "dddc");
     CHECK(read_file(result) == before);
   }
-  // A file that no run wrote stays.
+  // A file that no run wrote is not replaced.
   fs::remove(tree.path("out/" + std::string(kJournal)));
   CHECK(states({}) == "ffff");
   CHECK(states("--force") == "cccc");
@@ -198,7 +199,7 @@ TEST_CASE("texremap tree: a killed run leaves complete files, and ends like an u
   fs::rename(tree.path("out"), tree.path("unbroken"));
   const auto check_files = [&] {
     for (const std::string& name : tree.results()) {
-      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished
+      if (fs::path(name).filename().string().front() == '.') continue;  // skips unfinished files
       CHECK(tree.content("out/" + name) == tree.content("unbroken/" + name));
     }
   };

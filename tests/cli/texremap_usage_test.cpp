@@ -1,4 +1,4 @@
-// What texremap prints, and what it makes of unusual inputs.
+// This file tests what texremap prints, and how it handles unusual inputs.
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -58,7 +58,8 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   const Fit fit = lowered_fit(example_fit());
   std::filesystem::create_directory(session.path("fits"));
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
-  write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
+  // every folder of fits has this file, which is not a fit
+  write_file(session.path("fits/manifest.json"), "{}");
   const auto list = [&](const std::string& path) {
     const ProcessResult result =
         require_success(session.texremap("list --pairs --converters " + path + " --json"));

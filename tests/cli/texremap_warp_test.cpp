@@ -1,4 +1,4 @@
-// Warps of maps, compared with the same warp in double precision.
+// This file tests warps of maps against the same warp in double precision.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWarpSize = 50;
 
-// A folder with a set and a warp; roughness is the square root of alpha.
+// A WarpSession is a folder with a set and a warp. Roughness is the square root of alpha.
 struct WarpSession : Session {
   WarpMapFit fit;
   explicit WarpSession(const std::string& source_model = "mitsuba/ward") {
@@ -32,7 +32,7 @@ struct WarpSession : Session {
     write_image(path("wood/oak_roughness.exr"), test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                 [](int x, int y, int) { return 0.2f + 0.8f * noise(x, y, 6); });
   }
-  // Compares each texel of the results with the warp of what `given` returns of it.
+  // Compares each texel of the results with the warp of the texel that `given` returns for it.
   template <typename Given>
   void check_warped(const std::string& stem, const Given& given) const {
     const TestImage diffuse = image(stem + "diffuse.exr"), specular = image(stem + "specular.exr"),
@@ -52,7 +52,7 @@ struct WarpSession : Session {
   }
 };
 
-// The texels of oak; a grey specular map stands for three channels.
+// Returns the texels of oak. Its grey specular map is used for three channels.
 auto oak_texels(const Session& session) {
   return [diffuse = session.image("wood/oak_diffuse.exr"), specular = session.image("wood/oak_specular.exr"),
           roughness = session.image("wood/oak_roughness.exr")](int x, int y) {
@@ -96,7 +96,7 @@ TEST_CASE("texremap warps: a set converted to the source of the warp needs no --
   require_success(convert("plain_out", "--from specular --to metallic", "metal_again"));
   require_success(convert("metal_again", "--fit stony.json --from-workflow metallic", "again_out"));
 
-  // Diffuse of glTF is scaled by the light that specular leaves, so it is a different material.
+  // glTF's diffuse is scaled by the light that specular does not reflect, so it is a different material.
   require_success(convert("metal", "--from metallic --to gltf-specgloss", "scaled"));
   const ProcessResult scaled = convert("scaled", by_warp, "scaled_out");
   CHECK(scaled.exit_code != 0);
@@ -109,7 +109,7 @@ TEST_CASE("texremap warps: a set converted to the source of the warp needs no --
 
 namespace {
 
-// A warp of a diffuse map alone, and a folder with only such maps.
+// An AlbedoSession has a warp of only a diffuse map, and a folder with only such maps.
 struct AlbedoSession : WarpSession {
   AlbedoSession() : WarpSession("mitsuba/ggx") {
     fit.method[kWarpSourceMaps] = kDiffuseAlone;

@@ -1,5 +1,5 @@
-// Conversions between workflows on files: results compared with formulas in this test and with the library in
-// memory, and warnings about implausible maps.
+// This file tests conversions between workflows on files. It compares results with its own formulas and with
+// the library in memory, and tests warnings about implausible maps.
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +63,7 @@ Words specular_words(const std::string& from, const std::string& to) {
 TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads",
           "[needs][slow]") {
   const Session session;
-  // Plastic, metal, and what is neither, where the bias decides.
+  // The rows are plastic, then metal, then a material between the two, which the bias decides.
   const auto part = [](int y) { return y < 16 ? 0 : y < 28 ? 1 : 2; };
   write_colors(session, "d.exr", [&](int x, int y, int c) {
     return part(y) == 1 ? 0.0f : (part(y) == 0 ? 0.4f : 0.1f) * noise(x, y, c);
@@ -115,8 +115,8 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
-  // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
-  // first.
+  // The specular workflow around Ward's model does not define its diffuse. It gets glTF's meaning: diffuse
+  // only gets the light that specular does not reflect.
   CHECK_THAT(result.errors,
              Contains("the diffuse convention of mitsuba/ward is assumed to be scaled, as in gltf"));
   for (int y = 0; y < kWorkflowSize; y += 3)
@@ -166,7 +166,7 @@ TEST_CASE("texremap workflows: alpha of diffuse is kept, and transparent texels 
 
 TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") {
   const Session session;
-  // A dark blend: metallic 0.69 with base color 0.04, or 0 with 0.0125, gives the same picture.
+  // This blend is dark: metallic 0.69 with base color 0.04 gives the same picture as metallic 0 with 0.0125.
   write_colors(session, "d.exr", [](int, int, int) { return 0.0125f; });
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
@@ -184,7 +184,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
     CHECK_THAT(result.errors, Contains(message));
   };
   const Words words = specular_words("specular", "metallic");
-  write_specular(session, 0.4f, 0.2195f);  // F0 0.04 as sRGB stores it
+  write_specular(session, 0.4f, 0.2195f);  // sRGB stores an F0 of 0.04 like this
   warned(words, "like F0 0.04 stored in sRGB (use --color-space specular=srgb");
   write_specular(session, 0.4f, 0.0f);
   write_colors(session, "s.exr", [](int, int, int) { return 0.0f; });
@@ -275,8 +275,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
         CHECK(ks <= 1.0f);
       }
       CHECK(diffuse.at(x, y, 0) <= base.at(x, y, 0) * (1.0f - m) + 1e-5f);
-      // The short form of importers: fitted to other pictures, and without a limit of Ks. Where it stays
-      // clear of the limit, alpha is within 15 % of it; elsewhere the lobe is wider.
+      // The short formula of importers was fitted to other pictures and does not limit Ks. Where Ks is small,
+      // alpha is within 15 % of this formula. Elsewhere the lobe is wider.
       if (most < 0.5f && fourth < 0.1f) {
         CHECK(n == Approx(1.52f / fourth).epsilon(0.3));
         ++compared;
@@ -305,8 +305,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {
   const Session session;
-  // The short form of the lobe, by separate code: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2); Kd is kept,
-  // less the F0 that core adds.
+  // Separate code repeats the short formula of the lobe: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2). Kd
+  // is kept, less the F0 that core adds.
   const auto json = nlohmann::json::parse(
       require_success(
           session.texremap(
@@ -335,7 +335,7 @@ TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workfl
     CHECK_THAT(numbers.output, Contains("base_color 0.71"));
     CHECK_THAT(numbers.output, Contains("metallic 0\n"));
   }
-  // Texels: no highlight, a fourth of the ramp, and a dielectric that keeps its width.
+  // The texels have no highlight, a fourth of the ramp, and a dielectric whose width stays.
   const std::vector<float> f0 = {0.0f, 0.00075f, 0.04f};
   write_colors(
       session, "d.exr", [](int, int, int) { return 0.5f; }, OIIO::TypeFloat, 3);

@@ -1,5 +1,5 @@
-// Two materials made of the same two parameters, as texture sets with strokes for remapc warp: its right
-// answer is known.
+// This file makes two materials from the same two parameters, as texture sets with strokes for remapc warp.
+// The correct result is therefore known.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace remap::warp_cli {
 
 inline constexpr int kSize = 96;
 
-// Two parameters of a surface, 0 to 1, in a pattern of its own for each phase.
+// A Latent holds two parameters of a surface, 0 to 1. Their pattern depends on the phase.
 struct Latent {
   double u, v;
 };
@@ -40,7 +40,7 @@ inline void write_set(const Session& session, const std::string& folder, double 
     write_image(session.path(folder + "/" + name), test_spec(kSize, kSize, channels, OIIO::TypeFloat),
                 [&](int x, int y, int c) {
                   const float value = texel(latent(x, y, phase))[first + static_cast<std::size_t>(c)];
-                  return first == 6 ? std::sqrt(value) : value;  // roughness, of which alpha is the square
+                  return first == 6 ? std::sqrt(value) : value;  // roughness is the square root of alpha
                 });
   };
   write("skin_diffuse.exr", {"R", "G", "B"}, 0);
@@ -48,13 +48,13 @@ inline void write_set(const Session& session, const std::string& folder, double 
   write("skin_roughness.exr", {"Y"}, 6);
 }
 
-// Which of the four corners of the pattern a texel is in; -1 for none.
+// Returns which of the four corners of the pattern a texel is in, or -1.
 inline int corner_of(const Latent& at) {
   const int u = at.u < 0.15 ? 0 : at.u > 0.85 ? 1 : -1, v = at.v < 0.15 ? 0 : at.v > 0.85 ? 1 : -1;
   return u < 0 || v < 0 ? -1 : u + 2 * v;
 }
 
-// A mask for each corner.
+// Writes a mask for each corner.
 inline void write_strokes(const Session& session, const std::string& folder, double phase) {
   for (int k = 0; k < 4; ++k)
     write_image(session.path(folder + std::to_string(k) + ".png"),
@@ -69,12 +69,12 @@ inline void write_materials(const Session& session) {
   write_strokes(session, "stone_", 0.37);
 }
 
-// Of wood and stone, into stony.json.
+// Warps wood to stone, into stony.json.
 inline ProcessResult run_warp(const Session& session, const Words& more) {
   return session.remapc("warp wood stone --force -o stony.json" + more);
 }
 
-// The strokes of the first `pairs` corners.
+// Returns the options for the strokes of the first `pairs` corners.
 inline Words mask_words(std::size_t pairs = 4) {
   Words words;
   for (const char k : std::string("0123").substr(0, pairs))
@@ -82,7 +82,8 @@ inline Words mask_words(std::size_t pairs = 4) {
   return words;
 }
 
-// What of the template's variation a warp of `given` texels does not meet, RMS: 1 for a constant.
+// Returns the RMS error of the warp of `given` texels, relative to the variation of the template. A constant
+// result has 1.
 inline double error_of(const WarpMapFit& fit, const std::function<WarpTexel(const Latent&)>& given) {
   double squares = 0.0, spread = 0.0;
   for (int y = 0; y < kSize; ++y)

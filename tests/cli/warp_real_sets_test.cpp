@@ -1,6 +1,6 @@
-// Warps between texture sets that people have: BoomBox and a chess king, by strokes that were painted over
-// their maps (strokes/: metal trims and gold in red, grey plastic and jade in green, black plastic and marble
-// in blue).
+// This file tests warps between real texture sets: BoomBox and a chess king, with strokes painted over their
+// maps. In strokes/, metal trims and gold are red, grey plastic and jade green, black plastic and marble
+// blue.
 #include <nlohmann/json.hpp>
 
 #include "cli/remapc_session.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSize = 512, kShrink = 4;
 
-// Means of blocks of texels, in stored values.
+// Writes the means of blocks of texels, in stored values.
 void write_small(const fs::path& from, const std::string& to) {
   const TestImage image = read_image(from);
   REQUIRE(image.spec.width == kSize * kShrink);
@@ -51,7 +51,7 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
   const fs::path strokes = fs::path(REMAP_SOURCE_DIR) / "tests/cli/strokes";
   struct Direction {
     std::string source, source_strokes, target, target_strokes;
-    double folds, used;  // at most, at least
+    double folds, used;  // upper limit of `folds`, lower limit of `used`
   };
   for (const Direction& way : {Direction{"box", "boom_box.png", "king", "king.png", 0.005, 0.4},
                                Direction{"king", "king.png", "box", "boom_box.png", 0.15, 0.25}}) {
@@ -68,8 +68,8 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     CHECK(found["fold_share"] < way.folds);
     CHECK(found["stroke_distance"] < 0.5);
     CHECK(found["template_used"] > way.used);
-    // The gold of the king varies in a way that BoomBox, with few flat colors, cannot represent: a warning
-    // says so.
+    // The gold of the king varies more than the few flat colors of BoomBox can represent. A warning must
+    // report this.
     const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
   }

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Runs the shell blocks of one page of documentation, in order, as one script in an empty folder.
 
-    run_blocks.py PAGE FOLDER PROGRAM_FOLDER
+  run_blocks.py PAGE FOLDER PROGRAM_FOLDER
 
-A block fenced as `sh` must succeed. A block fenced as `sh no-test` or `console` is not run; the line above it must be
-an HTML comment that gives the reason, as in <!-- not tested: needs a network -->. Every relative link of the page must
-name a file. FOLDER is emptied; it then has the repository's generated/, examples/, runtime/, compiler/, scripts/ as
-links, and fits/ as a copy, so that nothing in the repository changes. Exit code: 0 when all holds, 1 otherwise.
+A block fenced as `sh` must succeed. A block fenced as `sh no-test` or `console` is not run. The line above it must be
+an HTML comment that gives the reason, as in <!-- not tested: needs a network -->. Every relative link of the page
+must point to a file. FOLDER is emptied. It then has the repository's generated/, examples/, runtime/, compiler/,
+scripts/ as links, and fits/ as a copy, so that nothing in the repository changes. The exit code is 0 if everything is
+right, otherwise 1.
 """
 import os
 import pathlib
@@ -26,7 +27,7 @@ def fail(page, line, message):
 
 
 def blocks_of(page):
-    """(first line, words of the fence, text) of each fenced block, and the lines outside of blocks."""
+    """Returns (first line, words of the fence, text) of each fenced block, and the lines outside of blocks."""
     blocks, outside, start = [], [], None
     lines = page.read_text(encoding="utf-8").splitlines()
     for number, line in enumerate(lines, 1):

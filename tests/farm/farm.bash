@@ -1,10 +1,11 @@
-# One conversion by many processes, under schedulers that lose some of them: Slurm, OpenJD and GNU parallel. However often a task
-# is killed, the tree of results must become that of one process, and the reports those of all sets, each once.
+# Tests one conversion by many processes, under schedulers that lose some of them: Slurm, OpenJD and GNU parallel.
+# Even if tasks are killed often, the tree of results must equal the tree of a single process, and the reports must
+# have each set once.
 #
 #   farm.bash TEXREMAP [short | long]
 #
-# short: 120 sets in 6 parts, below half a minute on two cores. long, with REMAP_CAMPAIGN=full the default: 2,000 sets in 40 parts,
-# and over 20 kills in five minutes.
+# short: 120 sets in 6 parts, below half a minute on two cores.
+# long (the default with REMAP_CAMPAIGN=full): 2,000 sets in 40 parts, and over 20 kills in five minutes.
 set -uo pipefail
 readonly texremap=$1 form=${2:-$([[ ${REMAP_CAMPAIGN-} == full ]] && echo long || echo short)}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -12,9 +13,10 @@ source "$here/slurm.bash"
 
 readonly convert=(--from mitsuba/ward --to mitsuba/ggx)
 sets=2000 parts=40 least_kills=20
-# What happens to the tasks of each way, in this order, at random moments. task: kill -9; batch, job: scancel --signal=KILL; daemon:
-# the slurmd of a node dies and comes back, its tasks live on; node: the machine with its tasks; lost: noticed by slurmctld alone;
-# frozen: the machine stands still until its tasks have been done elsewhere.
+# These events happen to the tasks of each scheduler, in this order, at random moments. task: kill -9. batch, job:
+# scancel --signal=KILL. daemon: the slurmd of a node dies and comes back, but its tasks continue. node: the machine
+# dies with its tasks. lost: like node, but only slurmctld itself notices it. frozen: the machine stops until other
+# machines have done its tasks.
 declare -A troubles=([slurm]="task batch frozen node job task daemon task lost batch task node task job"
   [openjd]="task task task task task task" [commands]="task task task task task task task task")
 if [[ $form == short ]]; then
@@ -30,7 +32,7 @@ find_openjd() {
   return 1
 }
 
-# conversions WAY: texremap that converts for it, not the one that merges.
+# conversions WAY prints the process ids of texremap that convert for this scheduler, without the process that merges.
 conversions() {
   local pid
   for pid in $(pgrep -x texremap); do
@@ -38,10 +40,10 @@ conversions() {
   done
 }
 
-# running FORMAT: the jobs of the plan. Others have names of their own.
+# running FORMAT prints the running jobs of the plan. All other jobs have other names.
 running() { squeue --noheader --states=RUNNING --name=texremap --format="$1"; }
 
-# trouble WAY KIND: fails where nothing runs that it could meet.
+# trouble WAY KIND causes an event of this kind. It fails if no process runs that the event could hit.
 trouble() {
   local victim
   case $2 in
@@ -68,7 +70,7 @@ trouble() {
 
 report_of() { printf '%s/.texremap-parts/part-%04d-of-%04d.jsonl' "$1" "$2" "$3"; }
 
-# missing_parts OUT: numbers, a line each.
+# missing_parts OUT prints the numbers of parts without a report, one per line.
 missing_parts() {
   local i
   for ((i = 1; i <= parts; ++i)); do
@@ -76,7 +78,7 @@ missing_parts() {
   done
 }
 
-# run_WAY PLAN [PART...]: all parts, or those, and the merge.
+# run_WAY PLAN [PART...] runs all parts, or the given parts, and the merge.
 run_slurm() {
   local numbers="${*:2}"
   sh "$1/submit.sh" ${numbers:+"${numbers// /,}"} && wait_until 300 no_jobs
@@ -101,7 +103,8 @@ run_commands() {
   sh "$1/merge.sh"
 }
 
-# Converts in rounds, each of the parts that have no report, and disturbs them. Leaves the number of rounds in `rounds`.
+# Converts in rounds and disturbs them. Each round runs the parts that have no report. The variable `rounds` gets the
+# number of rounds.
 run_in_rounds() {
   local -r way=$1 plan=$2 out=$3
   local -a waiting=(${troubles[$way]}) todo=()
@@ -122,13 +125,13 @@ run_in_rounds() {
   done
 }
 
-# equal_trees ONE OTHER: but for reports and journals.
+# equal_trees ONE OTHER compares two trees, except for reports and journals.
 equal_trees() { diff -r --brief --exclude='.texremap*' "$1" "$2"; }
 
-# nothing_unfinished OUT: no hidden file but those of the conversion itself.
+# nothing_unfinished OUT checks that OUT has no hidden files except the records of the conversion.
 nothing_unfinished() { ! find "$1" -name '.*' -not -path "$1/.texremap*" -not -path "$1" | grep .; }
 
-# each_set_once OUT: the reports of the parts have every set of the manifest, once.
+# each_set_once OUT checks that the reports of the parts have every set of the manifest once.
 each_set_once() {
   /usr/bin/python3 - "$1" "$farm/sets.jsonl" <<'PYTHON'
 import collections, json, pathlib, sys
@@ -163,7 +166,8 @@ try_way() {
   echo "$way: $rounds rounds, $(seconds_since "$start") s"
 }
 
-# A disk that is full until an administrator comes: the tasks end with 75, and their scripts queue them again, seconds later.
+# The disk is full until an administrator makes room. Tasks then end with 75, and their scripts queue them again
+# seconds later.
 fill_disk() {
   mkdir full
   mount -t tmpfs -o "size=$(($(du -sk one | cut -f1) / 2))k" tmpfs full
@@ -179,7 +183,7 @@ judge_full_disk() {
   judge "full disk, with more room" full/out
 }
 
-# Names that mean something to a scheduler or to a shell.
+# These names have a meaning for a scheduler or a shell.
 readonly odd="odd %a {{n}} 'o' \$x"
 try_odd_names() {
   local way
@@ -209,7 +213,7 @@ try_two_at_once() {
   judge "two copies of a part at once" twice
 }
 
-# sets_per_second N: in N parts at once.
+# sets_per_second N measures N simultaneous parts.
 sets_per_second() {
   local -r start=$EPOCHREALTIME
   local i
@@ -239,7 +243,7 @@ print_figures() {
   sort "$farm/happened.txt" | uniq -c
 }
 
-# What waits for Slurm, and what needs none.
+# The checks of a lane run one after another. One lane uses Slurm, the other does not.
 lane_of_slurm() {
   fill_disk
   try_way slurm

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""How a conversion grows: the figures of docs/farm.md, and of large assets.
+"""Measures how a conversion scales: the figures of docs/farm.md, and of large assets.
 
-Prints time and memory of the index of a tree of sets and of one of assets, what a part costs beside its sets, how many
-files a set opens and renames (where strace is installed), sets a second against the number of parts at once, and what one large set takes.
-With --assets instead: processor time and memory of an OBJ file of 150 MB, a GLB file of 1 GB, a pair of images and many factors.
+Prints time and memory of the index of a tree of sets and of a tree of assets, what a part costs besides its sets, how
+many files a set opens and renames (if strace is installed), sets per second against the number of simultaneous parts,
+and what one large set needs. With --assets, it prints processor time and memory for an OBJ file of 150 MB, a GLB file
+of 1 GB, a pair of images and many factors instead.
 
 Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512] [--assets]
 """
@@ -24,7 +25,7 @@ CONVERSION = ["--from", "mitsuba/ward", "--to", "mitsuba/ggx"]
 
 
 def png(width, height, channels, seed):
-    """A PNG of 8 bits with smooth noise."""
+    """Returns a PNG of 8 bits with smooth noise."""
     rows = b"".join(
         b"\0" + bytes((seed * 31 + x * 7 + y * 13 + c * 50) % 200 + 20 for x in range(width) for c in range(channels))
         for y in range(height))
@@ -37,7 +38,8 @@ def png(width, height, channels, seed):
 
 
 def make_tree(root, sets, size):
-    """Sets of three maps, 100 a folder; files are links to a few images, so that 300,000 are made in seconds."""
+    """Writes sets of three maps, 100 per folder. Files are links to a few images, so that 300,000 are made in
+    seconds."""
     root.mkdir(parents=True)
     images = []
     for seed in range(4):
@@ -54,12 +56,12 @@ def make_tree(root, sets, size):
             target = folder / f"asset{i:06}_{word}.png"
             try:
                 os.link(image, target)
-            except OSError:  # the most links of an inode
+            except OSError:  # one file has as many links as possible
                 shutil.copy(image, target)
 
 
 def make_assets(root, assets):
-    """glTF files of five materials and a buffer, 100 a folder, without images."""
+    """Writes glTF files with five materials and a buffer, 100 per folder, without images."""
     materials = [{"name": f"m{i}", "extensions": {"KHR_materials_pbrSpecularGlossiness": {
         "diffuseFactor": [0.1 * i, 0.3, 0.5, 1], "specularFactor": [0.04, 0.04, 0.04], "glossinessFactor": 0.5}}}
         for i in range(5)]
@@ -74,7 +76,7 @@ def make_assets(root, assets):
 
 
 def make_large_set(root):
-    """A set of 4096 x 4096 halfs, of smooth noise, in EXR with ZIP."""
+    """Writes a set of 4096 x 4096 half floats with smooth noise, in EXR with ZIP."""
     root.mkdir()
     for word, channels, seed in (("Roughness", 1, 1), ("Specular", 3, 2)):
         subprocess.run(["oiiotool", "--pattern", f"noise:type=uniform:min=0.1:max=0.9:seed={seed}", "1024x1024", str(channels),
@@ -82,7 +84,7 @@ def make_large_set(root):
 
 
 def make_obj(path, side):
-    """A wavy grid of side x side vertices, with normals and texture coordinates, as triangles."""
+    """Writes a wavy grid of side x side vertices, with normals and texture coordinates, as triangles."""
     with open(path, "w", encoding="ascii") as file:
         for y in range(side):
             for x in range(side):
@@ -96,7 +98,7 @@ def make_obj(path, side):
 
 
 def make_glb(path, size):
-    """One spec-gloss material beside a buffer of zeros, which takes no place on the disk."""
+    """Writes one spec-gloss material with a large buffer of zeros, which needs no space on the disk."""
     text = json.dumps({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
                        "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5}}}],
                        "buffers": [{"byteLength": size}]}).encode()
@@ -108,7 +110,7 @@ def make_glb(path, size):
 
 
 def make_pair(folder, size):
-    """A spec-gloss material with two maps of smooth noise."""
+    """Writes a spec-gloss material with two maps of smooth noise."""
     folder.mkdir()
     for name, channels, seed in (("diffuse", 3, 1), ("specular", 4, 2)):
         subprocess.run(["oiiotool", "--pattern", f"noise:type=uniform:min=0.1:max=0.9:seed={seed}", f"{size // 4}x{size // 4}",
@@ -134,7 +136,7 @@ def bytes_in(folder):
 
 
 def run(*words):
-    """Seconds of a command, what it used, and what it prints."""
+    """Returns the seconds of a command, the resources that it used, and what it prints."""
     begin = time.monotonic()
     process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     output = process.stdout.read()
@@ -145,13 +147,13 @@ def run(*words):
 
 
 def measured(*words):
-    """Seconds and peak memory of a command, and what it prints."""
+    """Returns the seconds and the peak memory of a command, and what it prints."""
     seconds, usage, output = run(*words)
     return seconds, usage.ru_maxrss / 1000, output
 
 
 def system_calls(texremap, manifest, output, sets):
-    """Opens of files of the tree and renames, for a set."""
+    """Returns how many files of the tree are opened and renamed per set."""
     if shutil.which("strace") is None:
         return "strace is not installed"
     log = output.parent / "strace.txt"
@@ -210,7 +212,7 @@ def report(texremap, scratch, options):
     seconds, memory, _ = measured(texremap, "index", tree, "-o", manifest, "--quiet")
     print(f"index of {options.sets} sets, {3 * options.sets} files: {seconds:.1f} s, {memory:.0f} MB, "
           f"{manifest.stat().st_size / 1e6:.0f} MB on disk")
-    # A part without sets reads the manifest and its converter, and writes its report.
+    # A part without sets only reads the manifest and its converter, and writes its report.
     part = f"1/{50 * options.sets}"
     seconds, memory, _ = measured(texremap, "convert", "--manifest", manifest, "--part", part, *CONVERSION, "-o",
                                   scratch / "empty", "--quiet")

@@ -1,9 +1,9 @@
-"""Writes a tree of small texture sets in nested folders, fast and without a library of images.
+"""Writes a tree of small texture sets in nested folders, fast and without an image library.
 
   make_sets.py FOLDER COUNT
 
-Sets are PNG of 8 and 16 bits, TGA and half EXR; the content of each is its own. They have 16 to 64 texels a side, one in 15 has
-256: parts of equal numbers of sets would differ in cost.
+Sets are PNG of 8 and 16 bits, TGA and EXR with half floats, each with its own content. They have 16 to 64 texels a
+side, but one in 15 has 256. Parts with equal numbers of sets therefore differ in cost.
 """
 import pathlib
 import struct

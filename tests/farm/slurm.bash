@@ -1,18 +1,18 @@
-# A private Slurm of two nodes on this machine, in namespaces of its own. To be sourced; needs slurm-wlm, munge and root: slurmctld
-# drops groups, which a user may not in a namespace.
+# Other scripts source this file. It starts a private Slurm of two nodes on this machine, in separate namespaces. It needs
+# slurm-wlm, munge and root. A user is not enough, because slurmctld drops groups, which needs root in a namespace.
 #
-#   enter_farm "$0" "$@"    runs the script again inside: its ports clash with nobody's, and no process outlives it
-#   check TITLE COMMAND...  a line PASS or FAIL; end_farm ends the script by them
-#   begin_lane NAME COMMAND...; end_lane NAME   checks beside those of other lanes
-#   start_slurm             munged, slurmctld and two slurmd, whose files are in $farm/slurm
-#   lose_node node1         kills its daemon and its tasks, as a machine that fails
+#   enter_farm "$0" "$@"    runs the script again inside the namespaces. Its ports do not clash, and no process outlives it.
+#   check TITLE COMMAND...  prints a line PASS or FAIL. end_farm ends the script with their result.
+#   begin_lane NAME COMMAND...; end_lane NAME   runs checks at the same time as other lanes
+#   start_slurm             starts munged, slurmctld and two slurmd, whose files are in $farm/slurm
+#   lose_node node1         kills its daemon and its tasks, as if the machine failed
 #   start_node node1        starts its daemon, as after a reboot
 #
 # $farm is a folder of the test, which is removed at its end.
 
 readonly farm_nodes=(node1 node2)
 
-# skip_farm WHAT REASON: WHAT is the name that REMAP_REQUIRE may hold.
+# skip_farm WHAT REASON skips the test. WHAT is a word that REMAP_REQUIRE may contain.
 skip_farm() {
   echo "skipped: $1: $2"
   [[ ,${REMAP_REQUIRE-}, == *",$1,"* ]] && exit 1
@@ -26,8 +26,8 @@ need_slurm() {
   done
 }
 
-# The first process of the namespaces is the script. The kernel ends all others with it, and it ends with the process here, even one
-# that is killed; then the next run removes its folder.
+# This script is the first process of its namespaces. If it ends, the kernel ends all others. It ends together with
+# the process that started it, even if that is killed. The next run then removes its folder.
 enter_farm() {
   if [[ ${REMAP_FARM-} == inside ]]; then
     trap 'exit 130' INT TERM HUP
@@ -71,7 +71,7 @@ check() {
   fi
 }
 
-# What a lane leaves in variables is lost. Its lines appear together when it has ended.
+# A lane runs in a subshell, so its variables are lost. Its lines appear together when it has ended.
 declare -A lanes
 begin_lane() {
   "${@:2}" >"$farm/lane-$1.txt" 2>&1 &
@@ -91,7 +91,8 @@ end_farm() {
   exit "$((failed > 0))"
 }
 
-# ip(8) is not installed everywhere. Slurm does not listen where all addresses are loopback ones (AI_ADDRCONFIG), so lo has another.
+# ip(8) is not installed everywhere. Slurm does not listen if all addresses are loopback addresses (AI_ADDRCONFIG), so
+# lo gets another address.
 loopback_up() {
   /usr/bin/python3 - <<'PYTHON'
 import fcntl, socket, struct
@@ -103,8 +104,8 @@ with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as some:
 PYTHON
 }
 
-# A lost node is noticed, its tasks are queued again, and both run again, within seconds. cred_expire is how long a job waits that
-# is queued again; 5 s is the least.
+# With these times, a lost node is noticed, its tasks are queued again, and both run again within seconds. cred_expire
+# is how long a job waits that is queued again. Its least value is 5 s.
 write_slurm_conf() {
   local node port=17010
   local -r memory=$(($(sed -n 's/^MemTotal: *\([0-9]*\) kB/\1/p' /proc/meminfo) / 1100))
@@ -147,7 +148,7 @@ CONF
   echo "PartitionName=farm Nodes=ALL Default=YES MaxTime=INFINITE State=UP"
 }
 
-# wait_until SECONDS COMMAND...
+# wait_until SECONDS COMMAND... repeats the command until it succeeds.
 wait_until() {
   local -r until=$((SECONDS + $1))
   shift
@@ -167,7 +168,7 @@ slurm_failed() {
   exit 1
 }
 
-# In the foreground, so that they are children of this shell; their pids in node_pids.
+# The daemons run in the foreground, so that they are children of this shell. node_pids has their pids.
 declare -A node_pids
 start_node() {
   slurmd -D -N "$1" >/dev/null 2>&1 &
@@ -177,8 +178,8 @@ start_node() {
 
 kill_daemon() { kill -9 "${node_pids[$1]}"; }
 
-# processes_of NODE: the daemon first, then the keepers of its tasks, so that nobody reports the end of a task that is killed. The
-# tasks have the name of the node in their environment.
+# processes_of NODE prints the processes of a node, whose environment contains its name. The daemon comes first, then
+# the processes that watch its tasks. If they are killed in this order, nobody reports the end of a killed task.
 processes_of() {
   local file pid
   local -a tasks=() keepers=()
@@ -197,7 +198,8 @@ lose_node() {
   kill -9 "${processes[@]}" 2>/dev/null || true
 }
 
-# freeze_node NODE SECONDS: a machine that stands still, is given up, and goes on with its tasks when others have done them.
+# freeze_node NODE SECONDS stops a machine. Slurm treats it as lost. It continues with its tasks after other machines
+# have done them.
 freeze_node() {
   local -a processes
   read -ra processes < <(processes_of "$1")
@@ -212,7 +214,7 @@ freeze_node() {
   } 2>/dev/null &
 }
 
-# give_up_node NODE: what slurmctld does by itself some 15 s after a node is lost: its tasks are queued again.
+# give_up_node NODE queues the tasks of a lost node again. Without it, slurmctld would do this after about 15 s.
 give_up_node() {
   scontrol update NodeName="$1" State=DOWN Reason=lost
   start_node "$1"

@@ -1,5 +1,6 @@
-# Workers of remapc as steps of Slurm: `--worker "NAME=srun ..."` gives the table of a local worker. A step that is cancelled or hangs,
-# or a node that is lost, costs the sweep nothing but time; remapc itself that dies, no more than the pictures that were being rendered.
+# Tests workers of remapc as steps of Slurm. `--worker "NAME=srun ..."` must give the same table as a local worker. If
+# a step is cancelled or hangs, or a node is lost, the sweep must only take longer. If remapc itself dies, only the
+# pictures that were being rendered are lost.
 #
 #   worker.bash REMAPC SOURCES
 set -uo pipefail
@@ -10,7 +11,7 @@ enter_farm "$0" "$@"
 readonly remapc=$1 worker="python3 $2/examples/lambert_worker.py"
 readonly by_srun="example=srun -N1 -n1 $worker"
 readonly least_kept=6
-# Sweeps that something meets are long enough for it, the others short.
+# A sweep that is disturbed must run long enough. All other sweeps are short.
 readonly pair=(sweep --source example/blinn-phong --target mitsuba/ggx --roughness-range 0.1,0.6 --specular-range 0,0.1
   --specular-samples 3)
 readonly sweep=("${pair[@]}" --roughness-samples 8 --resolution 96) short=("${pair[@]}" --roughness-samples 3 --resolution 48)
@@ -27,11 +28,12 @@ is_the_table() { cmp local.csv "$1"; }
 
 is_the_short_table() { cmp short.csv "$1"; }
 
-# A sweep that keeps its pictures.
+# This sweep stores its pictures in the cache.
 readonly cached=("$remapc" "${sweep[@]}" --worker "$by_srun" --worker-folder pictures --cache cache --force -o table.csv)
 patience=8
 
-# met TITLE COMMAND...: the command meets a sweep that has begun. Its exit code is then $code.
+# met TITLE COMMAND... starts a sweep, and runs the command when the sweep has begun. $code is then the exit code of
+# the sweep.
 met() {
   local -r title=$1
   code=0
@@ -50,7 +52,7 @@ is_said() {
   grep -q "warning: worker example, request .* (another process renders the picture)" met.txt && grep -q " lost, " met.txt
 }
 
-# survived TITLE COMMAND...: the sweep goes on, says what it has lost, and leaves nothing.
+# survived TITLE COMMAND... checks that the sweep continues, reports its losses, and leaves no files.
 survived() {
   met "$@"
   check "$1: the sweep goes on" test "$code" == 0
@@ -59,7 +61,7 @@ survived() {
   check "$1: the folder of pictures is empty" test -z "$(ls -A pictures)"
 }
 
-# ended TITLE COMMAND...: another sweep finishes what is left, and clears up.
+# ended TITLE COMMAND... checks that another sweep finishes the rest and removes leftover files.
 ended() {
   met "$@"
   check "$1: pictures are kept" has_begun
@@ -74,7 +76,7 @@ kill_step() { scancel --signal=KILL "$(a_step)"; }
 
 stop_step() { scancel --signal=STOP "$(a_step)"; }
 
-# The whole job of srun.
+# Cancels the whole job of srun.
 cancel_job() { scancel "$(squeue --noheader --states=RUNNING --format=%i | head -n 1)"; }
 
 kill_remapc() { kill -9 "$sweep_pid"; }
@@ -99,7 +101,7 @@ cat >allocation.sbatch <<SBATCH
 $(printf '%q ' "$remapc" "${short[@]}" --worker "example=srun --exact -N1 -n1 $worker" --worker-processes 4 --no-cache \
   -o allocation.csv)
 SBATCH
-# sbatch --wait would look every few seconds.
+# `sbatch --wait` would only look every few seconds.
 ends_well() {
   local job
   job=$(sbatch --parsable "$1") && wait_until 60 no_jobs && scontrol show job "$job" | grep "JobState=COMPLETED"
@@ -115,7 +117,7 @@ survived "a node is lost" lose_a_node
 ended "remapc is killed" kill_remapc
 ended "remapc is interrupted" interrupt_remapc
 
-# Another machine does not share /dev/shm.
+# /dev/shm is not shared with another machine, which this worker simulates.
 readonly elsewhere="example=srun -N1 -n1 unshare --mount sh -c 'mount -t tmpfs none /dev/shm; exec $worker'"
 is_refused() {
   ! "$remapc" "${short[@]}" --no-cache -o other.csv --worker "$elsewhere" 2>other.txt &&
@@ -125,7 +127,7 @@ check "a worker elsewhere needs a folder" is_refused
 check "a worker elsewhere" "$remapc" "${short[@]}" --no-cache -o other.csv --worker "$elsewhere" --worker-folder pictures
 check "a worker elsewhere: the same table" is_the_short_table other.csv
 
-# A licence for each process of a sweep.
+# Each process of a sweep needs a licence.
 most_steps() {
   local count most=0
   "$@" >capped.txt 2>&1 &

@@ -1,5 +1,5 @@
-// Answers of workers: to describe, and to render; and the requests for pictures of the models that they
-// describe.
+// This target reads answers of workers to `describe` and `render`, and makes requests for pictures of the
+// models that they describe.
 #include "core/json_field.hpp"
 #include "fuzz/fuzz.hpp"
 #include "worker/protocol.hpp"

@@ -1,4 +1,4 @@
-// glTF (text and binary) and MTL files, as `texremap check` reads them.
+// This target reads glTF (text and binary) and MTL files, as `texremap check` does.
 #include "check/material.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"

@@ -1,5 +1,5 @@
-// Files of --converters: many converters, or the fit of one. What is read converts a texel, and is written
-// and read as the same.
+// This target reads files for --converters: many converters, or the fit of one converter. Each converter that
+// is read converts a texel. It is then written and read again, and must not change.
 #include "converter/converter_data.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"

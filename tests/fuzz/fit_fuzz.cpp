@@ -1,5 +1,5 @@
-// Fits as JSON, of every kind, as remapc and texremap read them. What is read can be written, and is then
-// read as the same.
+// This target reads fits as JSON, of every kind, as remapc and texremap do. A fit that is read is written and
+// read again. It must not change.
 #include "fuzz/fuzz.hpp"
 #include "lower/fit_file.hpp"
 #include "paths/converter_file.hpp"

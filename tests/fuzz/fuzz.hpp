@@ -1,5 +1,5 @@
-// What the fuzz targets share. A reader takes any bytes: it reads them, or refuses them with an Error whose
-// message is short and fit for a terminal. Anything else ends the run.
+// This file holds what the fuzz targets share. A function under test gets any bytes. It reads them, or
+// refuses them with an Error whose message is short and safe for a terminal. Anything else ends the run.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace remap {
 
-// What print_message() (command_line/run_app.hpp) shows at most.
+// print_message() (command_line/run_app.hpp) shows at most this many bytes.
 inline constexpr std::size_t kLongestRefusal = 8000;
 
 template <typename Read>

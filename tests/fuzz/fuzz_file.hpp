@@ -1,4 +1,4 @@
-// The bytes of a fuzz target as a file, in memory, for readers that take a path.
+// This file puts the bytes of a fuzz target into a file in memory, for functions that need a path.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// Overwritten by each run of one target. `ending`: of its name.
+// Each run of one target overwrites the file. The name of the file ends with `ending`.
 inline std::filesystem::path fuzz_file(const std::uint8_t* data, std::size_t size,
                                        const std::string& ending = "") {
   const std::string path = "/dev/shm/remap-fuzz-" + std::to_string(::getpid()) + ending;

@@ -1,12 +1,12 @@
-// Whole glTF files, text and binary, as `texremap convert` edits them. What comes out is read again, and has
-// nothing left to convert, unless a material failed.
+// This target edits whole glTF files, text and binary, as `texremap convert` does. The result is read again.
+// It has nothing left to convert unless a material failed.
 #include "assets/gltf/gltf_asset.hpp"
 #include "core/errors.hpp"
 #include "fuzz/fuzz.hpp"
 
 namespace {
 
-// Every image is four texels of its first bytes; there are no files.
+// Every image is four texels made from its first bytes. There are no files.
 class FuzzResources final : public remap::AssetResources, public remap::ImageCodec {
  public:
   std::unique_ptr<remap::ByteSource> open(const std::string& path) const override {
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const remap::AssetOptions& options : {core, exact, compact, specgloss, folded}) {
       const remap::AssetConversion once =
           remap::convert_gltf(remap::MemorySource(bytes), "file", options, &resources);
-      // An index that named nothing may name a new texture.
+      // An index that pointed to nothing may now point to a new texture.
       if (!once.changed || once.count(remap::MaterialState::kFailed) > 0) continue;
       const std::string again = written(bytes, once);
       const remap::AssetConversion twice =

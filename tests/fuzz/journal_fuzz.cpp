@@ -1,5 +1,5 @@
-// Journals of output folders, for a run of all sets and for a part beside others. Each goes on as a run does
-// that takes the folder.
+// This target reads journals of output folders, for a run of all sets and for a part. It then does what a run
+// does that continues in such a folder.
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -22,7 +22,7 @@ remap::Journal opened(const fs::path& folder, const std::optional<remap::Part>& 
   return {folder, {"mitsuba/ward", "mitsuba/as", "1f", {{"version", "0.1.0"}}}, part};
 }
 
-// Another run has written the file meanwhile.
+// Another run has written the file in the meantime.
 void require_refusal(remap::Journal& journal, const fs::path& file) {
   write(file, "other");
   if (journal.is_own(file)) return;
@@ -43,7 +43,7 @@ void run_on(const fs::path& folder, const fs::path& map, const std::optional<rem
     (void)journal.is_done("2e", {map});
     (void)journal.files_of("a");
     (void)remap::JournalLookup().target_of(remap::InputFile(map));
-    journal.begin({map, folder / "\xff_rough.tga"});  // a name that is not UTF-8
+    journal.begin({map, folder / "\xff_rough.tga"});  // this name is not UTF-8
     journal.claim(true);
     journal.commit("a", "2e", {remap::FinishedFile{map, 3, "3d"}}, true, [] {});
     if (!journal.is_own(map)) std::abort();
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::size_t index : {1u, 3u}) {
     const fs::path journal = parts / (remap::name_of({index, 3}) + remap::kPartJournal);
     write(journal, bytes);
-    // The last line about a file counts, and that is one of this run.
+    // The last line about a file is used, which is the line of this run.
     fs::last_write_time(journal, fs::file_time_type::clock::now() - std::chrono::hours(1));
   }
   run_on(folder, map, remap::Part{2, 3});

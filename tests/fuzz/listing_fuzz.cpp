@@ -1,5 +1,5 @@
-// Manifests of texremap, of sets and of assets. What is read is written again, over files of the names that
-// it lists, and read once more.
+// This target reads manifests of texremap, of sets and of assets. It makes files of the names in the
+// manifest, writes the manifest again, and reads it once more.
 #include <cstdlib>
 #include <unistd.h>
 
@@ -25,9 +25,10 @@ void write_again(const fs::path& file) {
   };
   const remap::ListedSizes sizes = placed(read.listing.found.sizes);
   for (const auto& [name, size] : sizes)
-    if (name.lexically_relative(root / "tree").string().starts_with("..")) std::abort();  // leads out
-  if (sizes.size() > kMostFiles) return;                            // to make them all would take too long
-  remap::read_or_refuse([&] { remap::require_as_listed(sizes); });  // none is there yet
+    // the name leads out of the tree
+    if (name.lexically_relative(root / "tree").string().starts_with("..")) std::abort();
+  if (sizes.size() > kMostFiles) return;                            // making them all would take too long
+  remap::read_or_refuse([&] { remap::require_as_listed(sizes); });  // none of the files exists yet
   for (const auto& [name, size] : sizes) remap::write_file(name, "x", remap::Flush::kNo);
   remap::read_or_refuse([&] { remap::require_as_listed(sizes); });
   const std::size_t problems = read.listing.found.problems.size();

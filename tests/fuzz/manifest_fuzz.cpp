@@ -1,4 +1,4 @@
-// Manifests.
+// This target reads manifests of `remapc build`.
 #include "build/manifest.hpp"
 #include "fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
-// Measured BRDFs of the MERL database. A file has 35 MB, which no input has: what follows the head of an
-// input is also written again and again until the file is complete.
+// This target reads measured BRDFs of the MERL database. A complete file has 35 MB, and inputs are smaller.
+// The bytes after the head of an input are therefore also repeated until the file is complete.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,12 +11,13 @@
 namespace {
 
 constexpr std::size_t kHead = 12, kFileBytes = kHead + 3 * 90 * 90 * 180 * sizeof(double);
-constexpr std::string_view kCounts("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", kHead);  // 90, 90, 180
+// these bytes are the counts 90, 90, 180
+constexpr std::string_view kCounts("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", kHead);
 
 std::string completed(std::string_view input) {
   std::string file(input);
   file.reserve(kFileBytes);
-  while (file.size() < kFileBytes)  // what is there once more, without the head
+  while (file.size() < kFileBytes)  // repeats the bytes after the head
     file.append(file, kHead, std::min(file.size() - kHead, kFileBytes - file.size()));
   file.resize(kFileBytes);
   return file;
@@ -27,7 +28,8 @@ std::string completed(std::string_view input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view input = remap::text_of(data, size);
   remap::read_or_refuse([&] { remap::read_merl(remap::fuzz_file(data, size)); });
-  if (size == kHead || !input.starts_with(kCounts)) return 0;  // is refused by its counts
+  // such a file is refused, because its counts are wrong
+  if (size == kHead || !input.starts_with(kCounts)) return 0;
   const std::string file = completed(input);
   bool is_read = false;
   remap::read_or_refuse([&] {

@@ -1,5 +1,6 @@
-// MTL files as `texremap convert` edits them. What comes out is read again, has nothing left to convert, and
-// holds every byte that was not touched. The same bytes are also read as an OBJ file with that MTL file.
+// This target edits MTL files as `texremap convert` does. The result is read again. It has nothing left to
+// convert, and holds every byte that was not touched. The same bytes are also read as an OBJ file with that
+// MTL file.
 #include <optional>
 
 #include "assets/document/text_encoding.hpp"
@@ -10,7 +11,8 @@
 
 namespace {
 
-// Files whose name has `.mtl` are the input; of the others every second is four texels of its name.
+// A file whose name has `.mtl` is the input. Half of the other files are images of four texels made from
+// their names.
 class MtlFuzzResources final : public remap::AssetResources, public remap::ImageCodec {
  public:
   explicit MtlFuzzResources(const std::string& bytes) : bytes_(bytes) {}
@@ -54,7 +56,7 @@ void edit_twice(const std::string& bytes, const remap::AssetOptions& options,
       remap::convert_mtl(remap::MemorySource(bytes), "file", options, &resources);
   const std::string text = remap::utf8_text(remap::MemorySource(bytes), "file");
   require(once.changed || once.text == text);
-  // A material that failed may find an image that another one made.
+  // A material that failed may find an image that another material made.
   if (once.count(remap::MaterialState::kFailed) > 0) return;
   const remap::AssetConversion twice = remap::convert_mtl(
       remap::MemorySource(once.changed ? once.pieces.front().bytes : bytes), "file", options, &resources);

@@ -1,4 +1,4 @@
-// Files of naming habits.
+// This target reads files of naming conventions.
 #include "fuzz/fuzz.hpp"
 #include "sets/naming.hpp"
 

@@ -1,6 +1,6 @@
-// Reports of parts, as `texremap merge-reports` reads them: the first and second part of a conversion have
-// the same report, so what occurs twice is met as well. The third is written as a run writes it, from the
-// lines of the input that are JSON, and its number of parts is another one.
+// This target reads reports of parts, as `texremap merge-reports` does. The first and the second part of a
+// conversion have the same report, so everything occurs twice. A run writes the third report, from the lines
+// of the input that are JSON. This report states another number of parts.
 #include <fstream>
 #include <unistd.h>
 

@@ -1,7 +1,8 @@
-// Maps of a texture set, read to the last row. The last byte is none of the file: it chooses the extension,
-// since a file may have the name of another format, whether the map is of roughness or of a color, whether
-// the channel R is named, whether there is another map, and whether the map is enlarged to its size. An input
-// that is one line of text is what an option names: numbers, or channels of a file.
+// This target reads maps of a texture set to the last row. The last byte of the input is not part of the
+// file. It chooses the extension (a file may have the name of another format), whether the map is roughness
+// or a color, whether the channel R is given, whether there is another map, and whether the map is enlarged
+// to its size. If the input is one line of text, it is also the value of an option: numbers, or channels of a
+// file.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -16,9 +17,9 @@
 namespace {
 
 constexpr std::array<const char*, 8> kExtensions = {"png", "jpg", "tif", "exr", "hdr", "webp", "bmp", "tga"};
-// Bits of the last byte. A color that is not specular is diffuse.
+// These are bits of the last byte. A color that is not specular is diffuse.
 enum : unsigned { kIsColor = 8, kIsSpecular = 16, kIsResampled = 32, kNamesChannel = 64, kHasOther = 128 };
-// A small file may claim more. What a whole map takes is known before it is read.
+// A small file may claim a large image. The size of a whole map is known before it is read.
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 constexpr std::size_t kLongestOption = 200;
 
@@ -48,7 +49,7 @@ void read_set(const remap::TextureSetRequest& request) {
   remap::require_scale(set, remap::RoughnessEncoding::kExponent);
 }
 
-// A grey Targa file of 8 x 8 texels that are all equal.
+// Returns a grey Targa file of 8 x 8 equal texels.
 std::string other_map() {
   constexpr std::array<std::uint8_t, 18> kHead = {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 8, 0};
   static const std::string path = [&] {
@@ -82,8 +83,8 @@ void read_factors(const std::string& text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  (void)remap::image_library();  // otherwise a module that cannot be loaded would look like maps that are
-                                 // refused
+  // A module that cannot be loaded would otherwise look like maps that are refused.
+  (void)remap::image_library();
   if (size == 0) return -1;
   const std::string_view text = remap::text_of(data, size);
   if (size <= kLongestOption && remap::is_plain_text(text)) {

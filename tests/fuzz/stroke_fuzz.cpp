@@ -1,4 +1,4 @@
-// Images of strokes, and boxes as the command line has them, for maps of 4 x 4 texels.
+// This target reads images of strokes, and boxes of the command line, for maps of 4 x 4 texels.
 #include <cstdlib>
 
 #include "core/plain_text.hpp"
@@ -14,8 +14,8 @@ constexpr std::size_t kLongestBox = 200, kTexels = 16;
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  (void)remap::image_library();  // otherwise a module that cannot be loaded would look like images that are
-                                 // refused
+  // A module that cannot be loaded would otherwise look like images that are refused.
+  (void)remap::image_library();
   const remap::MapFrame frame{"maps", 4, 4};
   const std::string_view text = remap::text_of(data, size);
   const auto require = [](const std::vector<std::uint32_t>& stroke) {
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::uint32_t texel : stroke)
       if (texel >= kTexels) std::abort();
   };
-  // A box is an argument, which the programs print as plain text.
+  // A box is an argument. The programs print arguments as plain text.
   if (size <= kLongestBox && remap::is_plain_text(text))
     return remap::read_or_refuse([&] { require(remap::box_stroke(std::string(text), frame)); });
   return remap::read_or_refuse([&] { require(remap::read_stroke(remap::fuzz_file(data, size), frame)); });

@@ -1,5 +1,5 @@
-// Tables as CSV, of both forms, and their checks; the FILE.json beside a table; and texts of --columns. What
-// is read is written as commands write it, and read again.
+// This target reads both forms of tables as CSV, and checks them. It also reads the FILE.json of a table, and
+// texts of --columns. A table that is read is written as commands do, and read again.
 #include <cstdlib>
 #include <unistd.h>
 

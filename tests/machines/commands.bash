@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# commands.bash FOLDER PROGRAM...: what a texremap without images does, run by the words of PROGRAM: the self-tests of every converter,
-# paths, numbers, factors of materials, journals, parts, and what it refuses.
+# commands.bash FOLDER PROGRAM... tests what texremap can do without images: the self-tests of every converter, paths,
+# numbers, factors of materials, journals, parts, and refusals. PROGRAM is the command that runs texremap.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -16,7 +16,7 @@ fail() {
   exit 1
 }
 
-# Windows ends lines with two characters, and names folders by backslashes.
+# Windows ends lines with two characters, and writes folders with backslashes.
 run() {
   local status=0
   "${program[@]}" "$@" >output 2>&1 || status=$?
@@ -24,7 +24,7 @@ run() {
   return "$status"
 }
 
-# expect CODE TEXT WORDS...: texremap WORDS ends with CODE and says TEXT.
+# expect CODE TEXT WORDS... checks that texremap WORDS ends with CODE and prints TEXT.
 expect() {
   local -r code=$1 text=$2
   local status=0
@@ -46,7 +46,7 @@ grep -qx "f0 0.0210798" text || fail "numbers: expected f0 0.0210798 in: $(cat t
 expect 0 "metallic 0.0629479" convert --from gltf-specgloss --to gltf --diffuse 0.1,0.2,0.3 --specular 0.04,0.05,0.06 \
   --glossiness 0.7
 
-# Factors of materials.
+# This material has only factors.
 cat >model.gltf <<'GLTF'
 {"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"], "materials": [
  {"name": "paint", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 1.0], "specularFactor": [0.5, 0.4, 0.3], "glossinessFactor": 0.7}}}]}
@@ -72,7 +72,7 @@ expect 0 "1 material converted" convert tree --manifest tree.manifest --part 1/1
 expect 0 "1 part: 1 asset converted, 0 failed" merge-reports parts_out
 [[ -z $(find . -name '*.unfinished-*') ]] || fail "unfinished files are left: $(find . -name '*.unfinished-*')"
 
-# Maps are refused by name.
+# A build without images must refuse maps and print their names.
 : >a_roughness.png
 expect 1 "is built without a library of images" convert --from mitsuba/ward --to mitsuba/ggx --roughness a_roughness.png \
   --specular 0.04 -o maps

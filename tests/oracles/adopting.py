@@ -1,21 +1,24 @@
 #!/usr/bin/env python3
-"""Applies the lines that docs/adopting offers to the programs themselves, and measures pictures before and after.
+"""Applies the code that docs/adopting offers to the programs themselves, and measures pictures before and after.
 
-Usage: tests/oracles/adopting.py [--cache FOLDER] [--record] [--pictures] [PROGRAM ...]
-       tests/oracles/adopting.py --constants          # offline: do the pages have the constants of the short forms?
-       tests/oracles/adopting.py --lines [PAGE ...]   # offline: do the lines in C and C++ compile ($CXX), and give what the pages state?
+Usage:
+  tests/oracles/adopting.py [--cache FOLDER] [--record] [--pictures] [PROGRAM ...]
+  tests/oracles/adopting.py --constants          # offline: do the pages have the constants of the short formulas?
+  tests/oracles/adopting.py --lines [PAGE ...]   # offline: does the C and C++ code compile ($CXX), and give what the
+                                                 # pages state?
 
-Programs whose registry has their source (obj2gltf, trimesh, mujoco-usd-converter, urdf-usd-converter) are installed at the version
-pinned below into a temporary folder (--cache keeps it). The code blocks of the pages are put into a copy of them, at anchors; an
-anchor that is gone is an error. Each program converts real files before and after, and the written materials are rendered. The other
-programs are measured by the formula of their rule. --record writes the tables and the constants into the pages, --pictures writes
-docs/adopting/*.png. What cannot be installed is named, and does not count; exit code 77 where nothing could be measured.
+If a registry has the source of a program (obj2gltf, trimesh, mujoco-usd-converter, urdf-usd-converter), the version
+pinned below is installed into a temporary folder (--cache keeps it). The code blocks of the pages are inserted into a
+copy, at anchors. A missing anchor is an error. Each program converts real files before and after, and the written
+materials are rendered. The other programs are measured by the formula of their rule. --record writes the tables and
+the constants into the pages, --pictures writes docs/adopting/*.png. Programs that cannot be installed are listed and
+skipped. The exit code is 77 if nothing could be measured.
 
-The picture: a sphere of 64 x 64 pixels, orthographic, under one light at 60 degrees and under 32 lights on a Fibonacci sphere
-(brighter above, 15 % of them four times). The source is Blinn's (N.H)^n or Phong's (R.V)^n without normalisation or cosine, and
-Kd N.L; a light makes white diffuse 1. The target is GGX as in appendix B of glTF. RMSE of sRGB display values in percent, for each set,
-over pixels and channels. MuJoCo's are lamps at 10, 30, 50 and 70 degrees. Of a material with maps, 40 texels are rendered, each as a
-sphere.
+The picture is a sphere of 64 x 64 pixels, orthographic, under one light at 60 degrees and under 32 lights on a
+Fibonacci sphere (brighter above, 15 % of them four times). The source is Blinn's (N.H)^n or Phong's (R.V)^n without
+normalisation or cosine, and Kd N.L. A light makes white diffuse 1. The target is GGX as in appendix B of glTF. The
+error is the RMSE of sRGB display values in percent, for each set, over pixels and channels. For MuJoCo, the lights
+are lamps at 10, 30, 50 and 70 degrees. If a material has maps, 40 texels are rendered, each as a sphere.
 """
 import argparse
 import collections
@@ -24,7 +27,7 @@ import pathlib
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # the sources stay as they are
+sys.dont_write_bytecode = True  # keeps the folder of the sources clean
 
 from offers.pages import PAGES, check_constants, record_table
 
@@ -47,7 +50,8 @@ except ImportError as missing:
 
 
 def measured(files, convert, variants, source, scratch, sets=SPHERES):
-    """Lines of a table: RMSE of each file before and after, and of all, under each set of lights."""
+    """Returns the lines of a table: RMSE of each file before and after, and of all files, under each set of lights.
+    """
     lines = ["| file | materials | " + " | ".join(variants) + " |", "|---|---|" + "---|" * len(variants)]
     everything = collections.defaultdict(list)
     for label, path, materials in files:
@@ -66,7 +70,7 @@ def measured(files, convert, variants, source, scratch, sets=SPHERES):
 
 
 def converted(name, cache, objs, scratch):
-    """Files of one program, how they are converted and read, and the lines of their table."""
+    """Holds the files of one program, how they are converted and read, and the lines of their table."""
     if objs is None and name != "mujoco-usd-converter":
         raise Skip(f"shared data: {ASSETS / 'mtl'} is not there")
     convert, variants = MAKERS[name](cache)
@@ -104,7 +108,7 @@ def draw(name, files, convert, variants, source, scratch):
 
 
 def measure_formulas(objs, record):
-    """Tables of the programs that are measured by the formula of their rule."""
+    """Returns tables of the programs that are measured by the formula of their own rule."""
     plain_files = [(label, [(m["ns"], m["kd"], m["ks"]) for m in materials.values()]) for label, _, materials in objs
                    if not any("map_kd" in m for m in materials.values())]
     fbx_files = [("phong_cube.fbx", [fbx_material(ASSETS / "mtl" / "phong_cube" / "phong_cube.fbx")])]

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""check_cases.py OUT [--size 128] [--seed-offset N]: writes texture sets that test `texremap check`.
+"""check_cases.py OUT [--size 128] [--seed-offset N] writes texture sets that test `texremap check`.
 
-OUT/faults/NAME/ holds one fault each, rebuilt from public bug reports ("own" for those that no report covers); OUT/clean/HABIT_MATERIAL/
-holds sets without a fault; OUT/cases.json says what is to be found where. Needs NumPy and oiiotool (for EXR only). Nothing here was made
-with knowledge of the command: each case follows what its report says about files. Offset 0 is for choosing thresholds, other offsets
-for reporting: the offset changes patterns, colours and ranges of roughness of every case.
+OUT/faults/NAME/ has one fault each, rebuilt from public bug reports ("own" if no report covers it).
+OUT/clean/HABIT_MATERIAL/ has sets without a fault. OUT/cases.json says which rules must find what. Needs NumPy and
+oiiotool (for EXR only). Nothing here was made with knowledge of the command: each case follows what its report says
+about files. Offset 0 is for choosing thresholds, other offsets are for reporting. The offset changes patterns,
+colours and ranges of roughness of every case.
 """
 import argparse
 import base64
@@ -24,21 +25,21 @@ SRGB = [(b"sRGB", b"\0")]
 SRGB_AND_GAMMA = [(b"sRGB", b"\0"), (b"gAMA", struct.pack(">I", 45455))]
 GAMMA_22 = [(b"gAMA", struct.pack(">I", 45455))]
 GAMMA_1 = [(b"gAMA", struct.pack(">I", 100000))]
-exr_queue = []  # (path, array): written by one oiiotool at the end
+exr_queue = []  # pairs (path, array), which oiiotool writes all at once at the end
 
 
 def encode(x):
-    """Linear to sRGB."""
+    """Converts linear values to sRGB."""
     return np.where(x <= .0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - .055)
 
 
 def decode(x):
-    """sRGB to linear."""
+    """Converts sRGB values to linear."""
     return np.where(x <= .04045, x / 12.92, ((x + .055) / 1.055) ** 2.4)
 
 
 def planes(a):
-    """The array as height x width x channels."""
+    """Returns the array as height x width x channels."""
     return a if a.ndim == 3 else a[..., None]
 
 
@@ -47,7 +48,7 @@ def integers(a, bits):
 
 
 def png(a, bits=8, chunks=()):
-    """A PNG file's bytes. Chunks of colour come between IHDR and IDAT."""
+    """Returns the bytes of a PNG file. Chunks about colour come between IHDR and IDAT."""
     h, w, c = a.shape
     raw = integers(a, bits).reshape(h, -1).view("u1").reshape(h, -1)
     raw = np.concatenate([np.zeros((h, 1), "u1"), raw], 1).tobytes()
@@ -57,7 +58,7 @@ def png(a, bits=8, chunks=()):
 
 
 def tga(a):
-    """An uncompressed TGA file's bytes, rows from the top."""
+    """Returns the bytes of an uncompressed TGA file, rows from the top."""
     h, w, c = a.shape
     order = [0] if c == 1 else [2, 1, 0, 3][:c]
     return struct.pack("<BBBHHBHHHHBB", 0, 0, 3 if c == 1 else 2, 0, 0, 0, 0, 0, w, h, 8 * c, 0x20 | (8 if c == 4 else 0)) + \
@@ -65,7 +66,8 @@ def tga(a):
 
 
 def tiff(a, srgb=False, floats=False):
-    """An uncompressed TIFF's bytes, 8-bit or float. `srgb` adds an Exif directory whose ColorSpace is 1, sRGB."""
+    """Returns the bytes of an uncompressed TIFF, 8-bit or float. `srgb` adds an Exif directory whose ColorSpace is 1,
+    sRGB."""
     h, w, c = a.shape
     data = (a.astype("<f4") if floats else integers(a, 8)).tobytes()
     bits, kind = (32, 3) if floats else (8, 1)
@@ -87,7 +89,8 @@ def tiff(a, srgb=False, floats=False):
 
 
 def save(path, a, bits=8, chunks=(), color=False, srgb_tag=False):
-    """Writes an array of 0..1 in the format of the path's suffix. `color`: sRGB values, which EXR stores linear."""
+    """Writes an array of 0..1 in the format of the path's suffix. `color` means sRGB values, which EXR stores as
+    linear."""
     a, suffix = planes(np.asarray(a, float)), path.suffix
     if suffix == ".exr":
         exr_queue.append((path, decode(a) if color else a))
@@ -112,7 +115,7 @@ def write_exrs():
 
 
 def noise(rng, n, beta=2.4, stretch=(1, 1)):
-    """Tileable noise of all octaves with the power spectrum f^-beta, 0..1, median .5."""
+    """Returns tileable noise of all octaves with the power spectrum f^-beta, 0..1, median .5."""
     f = np.fft.fftfreq(n) * n
     radius = np.hypot(f[:, None] * stretch[0], f[None] * stretch[1])
     radius[0, 0] = 1
@@ -121,7 +124,7 @@ def noise(rng, n, beta=2.4, stretch=(1, 1)):
 
 
 def soften(x, times=1):
-    """Blurs by 1 2 1 in both axes, which gives a mask antialiased edges."""
+    """Blurs by 1 2 1 along both axes, which gives a mask antialiased edges."""
     for _ in range(times):
         for axis in (0, 1):
             x = (np.roll(x, 1, axis) + 2 * x + np.roll(x, -1, axis)) / 4
@@ -129,14 +132,14 @@ def soften(x, times=1):
 
 
 def mask(x, share):
-    """A binary mask of about the given share of texels, with antialiased edges one to two texels wide."""
+    """Returns a binary mask of about the given fraction of texels, with antialiased edges one to two texels wide."""
     x = soften(x, 2)
     slope = np.hypot(np.roll(x, -1, 0) - np.roll(x, 1, 0), np.roll(x, -1, 1) - np.roll(x, 1, 1)) / 2
     return np.clip((x - np.quantile(x, 1 - share)) / np.maximum(slope, 1e-4) + .5, 0, 1)
 
 
 def tint(rng, hue, saturation, value, detail, depth=.15):
-    """An sRGB colour near the given hue, modulated by a scalar map."""
+    """Returns an sRGB colour close to the given hue, modulated by a scalar map."""
     rgb = np.array(colorsys.hsv_to_rgb((hue + rng.uniform(-.03, .03)) % 1, np.clip(saturation + rng.uniform(-.1, .1), 0, 1), value))
     return np.clip(rgb * (1 + depth * (2 * detail[..., None] - 1)), 0, 1)
 
@@ -146,7 +149,7 @@ def blend(a, b, t):
 
 
 def normals(height, strength):
-    """The tangent-space normals of a height map in OpenGL's orientation (green up; rows go down)."""
+    """Returns the tangent-space normals of a height map in OpenGL's orientation (green up, while rows go down)."""
     dx = (np.roll(height, -1, 1) - np.roll(height, 1, 1)) * strength
     dy = (np.roll(height, 1, 0) - np.roll(height, -1, 0)) * strength
     v = np.stack([-dx, -dy, np.ones_like(dx)], -1)
@@ -154,7 +157,8 @@ def normals(height, strength):
 
 
 def material(kind, seed, n):
-    """The maps of a material by name: base, rough, metal, ao, height, normal, normaldx, gloss, spec, diff (colours in sRGB)."""
+    """Returns the maps of a material by name: base, rough, metal, ao, height, normal, normaldx, gloss, spec, diff
+    (colours in sRGB)."""
     rng = np.random.default_rng([seed, zlib.crc32(kind.encode())])
     a, b, fine = noise(rng, n), noise(rng, n, 2), noise(rng, n, .9)
     y, x = np.mgrid[0:n, 0:n] / n
@@ -209,14 +213,14 @@ def material(kind, seed, n):
 
 
 def build(m, spec):
-    """The array of "base+1" or "ao|rough|metal": maps and constants, one after the other as channels."""
+    """Returns the array for "base+1" or "ao|rough|metal": maps and constants, one after the other as channels."""
     shape = m["rough"].shape
     parts = [np.full(shape, float(p)) if p.replace(".", "").isdigit() else m[p] for p in spec.replace("+", "|").split("|")]
     return np.concatenate([planes(p) for p in parts], -1)
 
 
 def write(folder, m, maps, bits=8, chunks=SRGB):
-    """Writes {file name: channels}. Colour files get the chunks (and 8 bits), data files none."""
+    """Writes {file name: channels}. Colour files get the chunks (and 8 bits), data files get none."""
     for name, spec in maps.items():
         color = spec.split("+")[0] in ("base", "diff", "spec")
         save(folder / name, build(m, spec), 8 if color or spec.startswith("normal") else bits, chunks if color else (), color)
@@ -228,7 +232,8 @@ TRIANGLE = struct.pack("<24f", 0, 0, 0, 1, 0, 0, 0, 1, 0, *[0, 0, 1] * 3, 0, 1, 
 
 
 def gltf(path, mat, required=()):
-    """A .gltf of one triangle. Values {"file": name} in the material become textures, and its extensions are declared."""
+    """Writes a .gltf of one triangle. Values {"file": name} in the material become textures, and its extensions are
+    declared."""
     files, used = [], sorted(mat.get("extensions", {}))
 
     def walk(x):
@@ -253,7 +258,8 @@ def gltf(path, mat, required=()):
 
 
 def asset(folder, m, name="Robot", mr="1|rough|metal", extensions=None, required=(), **pbr):
-    """A glTF export: three textures (two without `mr`) and their .gltf. Keywords are fields of pbrMetallicRoughness."""
+    """Writes a glTF export: three textures (two without `mr`) and their .gltf. Keywords are fields of
+    pbrMetallicRoughness."""
     base, rough, normal = f"{name}_baseColor.png", f"{name}_metallicRoughness.png", f"{name}_normal.png"
     write(folder, m, {base: "base", normal: "normal"} | ({rough: mr} if mr else {}))
     pbr = {"baseColorTexture": {"file": base}, "metallicRoughnessTexture": {"file": rough}, **pbr}
@@ -264,7 +270,7 @@ def asset(folder, m, name="Robot", mr="1|rough|metal", extensions=None, required
 
 
 def spec_gloss(folder, m, texture, required=False):
-    """A glTF with a specular-glossiness material; the channels of its texture as given."""
+    """Writes a glTF with a specular-glossiness material whose texture has the given channels."""
     write(folder, m, {"Robot_diffuse.png": "diff", "Robot_normal.png": "normal"})
     save(folder / "Robot_specularGlossiness.png", texture)
     ext = {"diffuseTexture": {"file": "Robot_diffuse.png"}, "specularGlossinessTexture": {"file": "Robot_specularGlossiness.png"}}
@@ -274,7 +280,8 @@ def spec_gloss(folder, m, texture, required=False):
 
 
 def painter(folder, m, name="Robot", suffix=".png", **other):
-    """A metal-rough export of four maps. Keywords replace a map's channels (None: no such map), or are (array, bits, chunks)."""
+    """Writes a metal-rough export of four maps. Keywords replace a map's channels (None: no such map), or are (array,
+    bits, chunks)."""
     for role, spec in ({"BaseColor": "base", "Metallic": "metal", "Roughness": "rough", "Normal": "normal"} | other).items():
         path = folder / f"{name}_{role}{suffix}"
         if isinstance(spec, str):
@@ -284,7 +291,7 @@ def painter(folder, m, name="Robot", suffix=".png", **other):
 
 
 def mtl(path, materials):
-    """An .mtl of [(name, {statement: value})]."""
+    """Writes an .mtl of [(name, {statement: value})]."""
     path.write_text("# Materials\n" + "".join(f"\nnewmtl {n}\n" + "".join(f"{k} {v}\n" for k, v in s.items()) for n, s in materials))
     return path.name
 
@@ -293,7 +300,8 @@ def mtl(path, materials):
 
 
 def painter_clean(d, m, i):
-    """Substance 3D Painter, metal-rough. Wood has the usual constant metallic map; plastic and fabric have none."""
+    """Writes a set of Substance 3D Painter, metal-rough. Wood has the usual constant metallic map. Plastic and fabric
+    have none."""
     dx = i == 3
     write(d, m, {"Robot_BaseColor.png": "base", "Robot_Roughness.png": "rough" if i % 2 else "rough|rough|rough",
                  "Robot_Normal_DirectX.png" if dx else "Robot_Normal.png": "normaldx" if dx else "normal"}
@@ -307,7 +315,7 @@ def megascans(d, m, i):
 
 
 def poly_haven(d, m, i):
-    """The packed map repeats the separate one, as downloads there do; roughness as EXR in some."""
+    """Writes a packed map that repeats the separate map, as downloads of this site do. Some have roughness as EXR."""
     e = "exr" if i % 2 else "png"
     write(d, m, {"rock_diff_2k.png": "base", f"rock_rough_2k.{e}": "rough", f"rock_nor_gl_2k.{e}": "normal", "rock_arm_2k.png": "ao|rough|metal",
                  "rock_disp_2k.png": "height"}, 16 if i == 4 else 8, SRGB_AND_GAMMA if i % 2 else ())
@@ -333,7 +341,7 @@ def unity_hdrp(d, m, i):
 
 
 def unreal(d, m, i):
-    """Unreal reads normal maps in DirectX's orientation; the prefix T_ is Unreal's."""
+    """Writes a set for Unreal, which reads normal maps in DirectX's orientation. The prefix T_ is Unreal's."""
     e = "tga" if i % 2 else "png"
     write(d, m, {f"T_Robot_BC.{e}": "base+1" if i == 1 else "base", f"T_Robot_N.{e}": "normaldx", f"T_Robot_ORM.{e}": "ao|rough|metal"}, 8, ())
 
@@ -355,7 +363,7 @@ def mari_udim(d, m, i):
 
 
 def gltf_export(d, m, i):
-    """Factors beside maps are valid glTF where no reader is named; a dielectric with an index of 1.45 is too."""
+    """Writes valid glTF with factors next to maps (no reader is given), or with a dielectric of index 1.45."""
     factors = [{}, {"roughnessFactor": .9}, {"baseColorFactor": [.9, .9, .9, 1]}, {}, {"metallicFactor": 0}][i]
     return asset(d, m, mr="ao|rough|metal" if i % 2 else "1|rough|metal", extensions={"ior": {"ior": 1.45}} if i == 1 else None, **factors)
 
@@ -392,7 +400,7 @@ FLIP = r"flip|invert|negat|green|\bG\b|\bY\b|direct ?x|opengl|rename|1 ?[-−]"
 
 
 def world_normals(m):
-    """World-space normals of a sphere with the material's detail."""
+    """Returns world-space normals of a sphere with the material's detail."""
     n = len(m["rough"])
     y, x = (np.mgrid[0:n, 0:n] + .5) / n
     theta, phi = 2 * np.pi * x, np.pi * (.5 - y)
@@ -428,7 +436,8 @@ def half_metal(m):
 
 
 def bands(m):
-    """A smooth change of roughness from .01 to .05, below the rust: some ten levels in 8 bits, each a visible band."""
+    """Returns roughness that changes smoothly from .01 to .05, below the rust. 8 bits have about ten levels there,
+    and each is a visible band."""
     y, x = np.mgrid[0:len(m["rough"]), 0:len(m["rough"])] / len(m["rough"])
     return blend(.01 + .04 * (.7 * x + .3 * y), m["rough"], 1 - m["metal"])
 
@@ -440,82 +449,87 @@ def not_finite(m):
 
 
 def exponents(d, m, **shininess):
-    """An .mtl of plain materials with the given exponents (a trailing _P in a name is %), the first with a diffuse map."""
+    """Writes an .mtl of plain materials with the given exponents (a trailing _P in a name means %), the first with a
+    diffuse map."""
     write(d, m, {"body_diffuse.png": "base"})
     rest = {"Kd": "0.640000 0.640000 0.640000", "Ks": "0.500000 0.500000 0.500000", "illum": 2}
     return mtl(d / "robot.mtl", [(n.replace("_P", "%"), {"Ns": ns} | rest | ({} if i else {"map_Kd": "body_diffuse.png"}))
                                  for i, (n, ns) in enumerate(shininess.items())])
 
 
-# name | report | rules | the remedy's expression | reader | material | what writes the files and returns the asset (None: the folder)
+# The fields are: name | report | rules | expression for the fix | reader | material | function that writes the files
+# and returns the asset (None: the folder).
 FAULTS = [
-    # Smoothness 1 became roughnessFactor 0, and what the map holds is lost.
+    # Smoothness 1 became roughnessFactor 0, so the content of the map is lost.
     ("full-smoothness-times-map", "glTFast 795", "factor-zero", FACTOR, None, "painted", lambda d, m: asset(d, m, roughnessFactor=0)),
     ("scalar-beside-map", "glTFast 796", "factor-ignored", FACTOR, "unity", "rust",
      lambda d, m: asset(d, m, roughnessFactor=.75, metallicFactor=.9)),
-    # The converter put metallic into R; B stayed 0.
+    # The converter put metallic into R, and B stayed 0.
     ("metallic-in-red", "trimesh 2195", "channel-order", ORDER, None, "rust", lambda d, m: asset(d, m, mr="metal|rough|0")),
-    # The roughness is flagged sRGB, the other data maps are not.
+    # The roughness is tagged sRGB, the other data maps are not.
     ("roughness-png-tagged-srgb", "usd-wg assets 98", "srgb-data", LINEAR, None, "painted",
      lambda d, m: painter(d, m, Roughness=(m["rough"], 8, SRGB_AND_GAMMA))),
-    # The packed map of the water bottle is read as sRGB: here by its Exif ColorSpace.
+    # The packed map of the water bottle is read as sRGB, here because of its Exif ColorSpace.
     ("orm-tiff-tagged-srgb", "OpenUSD 1174", "srgb-data", LINEAR, None, "rust", water_bottle),
     ("world-space-normals", "MaterialX 2729", "normal-space", r"tangent|object|world|re-?bak", None, "painted",
      lambda d, m: painter(d, m, Normal=(world_normals(m),))),
-    # The shader squares again: the roughness map is the square of the alpha, r^4; the gloss map is 1 - r.
+    # The shader squares again: the roughness map is the square of alpha, r^4, while the gloss map is 1 - r.
     ("sheen-roughness-squared-twice", "MaterialX 2642", "alpha-as-roughness", ROOT, None, "fabric",
      lambda d, m: painter(d, m, "Velvet", ".exr", Metallic=None, Roughness=(m["rough"] ** 4,), Gloss="gloss")),
-    # Iridescence and dispersion are among the inputs without counterpart; UsdPreviewSurface has neither.
+    # The inputs without counterpart include iridescence and dispersion, which UsdPreviewSurface lacks.
     ("inputs-dropped-by-preview-surface", "MaterialX 2578", "ignored-by-reader", DROP, "usd", "plastic", iridescent),
-    # The exporter wrote gloss where roughness is meant. The source's gloss map is still there, pixel for pixel.
+    # The exporter wrote gloss instead of roughness. The source's gloss map is still there, pixel for pixel.
     ("gloss-written-as-roughness", "playcanvas 8248", "gloss-as-roughness duplicate-map", INVERT, None, "painted",
      lambda d, m: painter(d, m, Roughness="gloss", Gloss="gloss")),
-    # G of metallicRoughness holds the smoothness of Unity's map. The folder is checked: it has the asset and the source map.
+    # G of metallicRoughness holds the smoothness of Unity's map. The whole folder is checked, because it has the
+    # asset and the source map.
     ("smoothness-in-green", "UnityGLTF 546", "gloss-as-roughness", INVERT, None, "wood", chair),
-    # Only a roughness texture was connected; the exported metallicRoughness texture is all white. The source map lies beside it.
+    # Only a roughness texture was connected, and the exported metallicRoughness texture is all white. The source map
+    # is in the same folder.
     ("exported-texture-all-white", "glTF-Blender-IO 2228", "constant-map", PACK, None, "plastic", all_white),
-    # Specular 0 is meant; an index of 1 takes the reflection away a second time, and the refraction too.
+    # Specular 0 is intended. An index of 1 removes the reflection a second time, and the refraction, too.
     ("no-specular-by-two-ways", "glTF-Blender-IO 2322", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": 0}, "ior": {"ior": 1}})),
-    # IOR level .8 times two as a factor, as the report wants it: the extension's range ends at 1 (only the colour may exceed it).
+    # The factor is IOR level .8 times two, as the report proposes. The range of the extension ends at 1. Only the
+    # colour may exceed 1.
     ("specular-factor-above-one", "glTF-Blender-IO 2745", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": 1.6}})),
     ("specular-for-godot", "godot 83320", "ignored-by-reader", DROP, "godot", "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": .2}})),
-    # The report is about Unreal, which reads the extension by now; Godot does not.
+    # The report is about Unreal, which reads the extension by now. Godot still does not.
     ("specular-and-ior-for-godot", "glTF 2433", "ignored-by-reader", DROP, "godot", "wood",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": 0, "specularColorFactor": [1, .9, .8]}, "ior": {"ior": 1.33}})),
-    # The add-on squared what the renderer squares itself: the alpha map is r^4 where it is r^2 for the roughness map.
+    # The add-on squares, and the renderer squares again: the alpha map is r^4, but the roughness map needs r^2.
     ("alpha-squared-twice", "mitsuba-blender 151", "alpha-as-roughness", ROOT, None, "rust", lambda d, m: painter(d, m, Alpha=(m["rough"] ** 4,))),
     ("alpha-named-roughness", "mitsuba-blender 122", "alpha-as-roughness", ROOT, None, "painted",
      lambda d, m: painter(d, m, Roughness=(m["rough"] ** 2,), Glossiness="gloss")),
-    # The packed texture had no type of its own, and an exporter took the base colour for it.
+    # The packed texture had no separate type, so an exporter mistook it for the base colour.
     ("base-color-as-metallic-roughness", "assimp 5968", "wrong-texture", SLOT, None, "rust",
      lambda d, m: asset(d, m, mr=None, metallicRoughnessTexture={"file": "Robot_baseColor.png"})),
     ("zero-times-map", "UniVRM 212", "factor-zero", FACTOR, None, "rust",
      lambda d, m: asset(d, m, mr="ao|rough|metal", roughnessFactor=0.0, metallicFactor=1.0)),
     ("specgloss-of-three-channels", "trimesh 1980", "specgloss-channels", FOUR, None, "painted", lambda d, m: spec_gloss(d, m, m["spec"])),
-    # Skin that became half-metal: metallic of .3 to .7 from a reflection map.
+    # Metallic of .3 to .7 comes from a reflection map, which makes skin half metal.
     ("metallic-from-reflection", "FBX2glTF 255", "metallic-greys", r"threshold|binar|\b0 (or|and) 1\b|metal|specular", None, "plastic",
      lambda d, m: painter(d, m, "Skin", Metallic=(half_metal(m),))),
-    # A very large index in place of metallic: F0 is nearly 1.
+    # A very large index makes F0 almost 1. The exporter should have set metallic instead.
     ("ior-1000-for-metal", "glTF 1719", "ior", IOR + "|metallic", None, "rust",
      lambda d, m: asset(d, m, mr="1|rough|0", extensions={"ior": {"ior": 1000}})),
     ("specgloss-used-for-threejs", "mesh-viewer 56", "ignored-by-reader", DROP, "threejs", "painted",
      lambda d, m: spec_gloss(d, m, build(m, "spec+gloss"))),
-    # White materials: the file *requires* specular and ior, which the reader does not know.
+    # The materials are white, because the file *requires* specular and ior, which the reader does not know.
     ("required-extensions", "flutter_3d_controller 83", "ignored-by-reader", DROP, "godot", "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": .8}, "ior": {"ior": 1.4}}, required=("specular", "ior"))),
-    # Shininess of 0 to 100 as FBX has it, written as exponents.
+    # Shininess from 0 to 100, as in FBX, is written as exponents.
     ("exponent-in-percent", "assimp 4573", "exponent-range", EXPONENT, None, "painted", lambda d, m: exponents(
         d, m, Paint_Shininess_30_P=30, Rubber_Shininess_5_P=5, Plastic_Shininess_60_P=60, Glass_Shininess_95_P=95, Chrome_Shininess_100_P=100)),
-    # The report asks how to carry an .mtl over; what a tool can see in one is that all exponents lie within 0 to 1.
+    # The report asks how to convert an .mtl. A tool can only see that all exponents lie within 0 to 1.
     ("exponent-of-0-to-1", "IsaacLab 4378", "exponent-range", EXPONENT, None, "painted",
      lambda d, m: exponents(d, m, Paint=.3, Rubber=.05, Plastic=.62, Glass=.95, Chrome=1.0, Wood=.4)),
 
     ("base-color-tagged-linear", "own", "linear-color", r"sRGB|re-?tag|colou?r[- ]?space|gAMA|chunk", None, "painted",
      lambda d, m: painter(d, m, BaseColor=(m["base"], 8, GAMMA_1))),
-    # The separate roughness is sRGB-encoded, that of the packed map is not. No file has a tag.
+    # The separate roughness is encoded as sRGB, but the roughness of the packed map is not. No file has a tag.
     ("roughness-stored-srgb", "own", "srgb-data", LINEAR, None, "rust",
      lambda d, m: write(d, m | {"encoded": encode(m["rough"])},
                         {"rock_diff_2k.png": "base", "rock_rough_2k.png": "encoded", "rock_arm_2k.png": "ao|rough|metal"})),
@@ -525,13 +539,13 @@ FAULTS = [
      lambda d, m: write(d, m, {"T_Robot_BC.png": "base", "T_Robot_N.png": "normaldx", "T_Robot_ORM.png": "ao|metal|rough"})),
     ("directx-named-gl", "own", "normal-orientation", FLIP, None, "wood", lambda d, m: write(
         d, m, {"rock_diff_2k.png": "base", "rock_rough_2k.png": "rough", "rock_nor_gl_2k.png": "normaldx", "rock_disp_2k.png": "height"})),
-    # A map of a single grey where texture is expected: one number does the same.
+    # The map has a single grey value, although it is used as a texture. A number would do the same.
     ("roughness-of-one-value", "own", "constant-map", PACK, None, "wood", lambda d, m: painter(d, m, Metallic=None, Roughness="0.5")),
     ("bands-in-polished-chrome", "own", "banding", r"16|half|float|EXR|dither|bit", None, "chrome",
      lambda d, m: painter(d, m, "Chrome", Roughness=(bands(m),))),
     ("nan-in-exr", "own", "bad-values", r"nan|not a number|infin|finite|clamp|fix|replac|re-?bak|clean", None, "painted",
      lambda d, m: painter(d, m, suffix=".exr", Roughness=(not_finite(m),))),
-    # A sharpened or filtered map with negative values and values above 1.
+    # The map was sharpened or filtered, and has negative values and values above 1.
     ("roughness-outside-0-to-1", "own", "bad-values", r"clamp|clip|range|0\.\.1|negativ|\b1\b", None, "wood", lambda d, m: painter(
         d, m, suffix=".exr", Metallic=None, Roughness=(.5 + .35 * (m["rough"] - m["rough"].mean()) / m["rough"].std(),))),
     ("occlusion-is-roughness", "own", "duplicate-map", r"duplicat|same|cop(y|ies)|wrong|remov|re-?bak|replac|re-?export", None, "painted",
@@ -542,7 +556,8 @@ FAULTS = [
     ("specgloss-of-one-channel", "own", "specgloss-channels", FOUR, None, "painted", lambda d, m: spec_gloss(d, m, m["spec"].mean(-1))),
     ("specgloss-required-for-threejs", "own", "ignored-by-reader", DROP, "threejs", "rust",
      lambda d, m: spec_gloss(d, m, build(m, "spec+gloss"), required=True)),
-    # Blender's IOR level .5 is no change, which is specularFactor 1; written as is, it halves the reflection. Valid glTF, hence a weak case.
+    # Blender's IOR level .5 changes nothing, like specularFactor 1. If .5 is written as the factor, it halves the
+    # reflection. The glTF is valid, so this is a weak case.
     ("ior-level-written-as-factor", "own", "ior", IOR, None, "plastic",
      lambda d, m: asset(d, m, extensions={"specular": {"specularFactor": .5}, "ior": {"ior": 1.5}})),
 ]

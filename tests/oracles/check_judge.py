@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""check_judge.py TEXREMAP [--size 128] [--seed-offset N] [--json FILE]: how many faults `texremap check` names, and where it cries wolf.
+"""check_judge.py TEXREMAP [--size 128] [--seed-offset N] [--json FILE] measures how many faults `texremap check`
+finds, and how often it gives false alarms.
 
-Makes the cases of check_cases.py in a temporary folder and checks each. A fault is found when a finding has one of the expected rules and
-its fix (`fix`) matches the case's expression. Exit code 1, with the reasons, for fewer than 18 of the 26 reports, for any finding on a
-clean set, and for any run that fails or whose exit code contradicts its findings.
+It makes the cases of check_cases.py in a temporary folder and checks each. A fault is found if a finding has one of
+the expected rules and its fix (`fix`) matches the expression of the case. The exit code is 1, with the reasons, for
+fewer than 18 of the 26 reports, for any finding on a clean set, and for any run that fails or whose exit code
+contradicts its findings.
 """
 import argparse
 import json
@@ -23,7 +25,7 @@ SCHEMA = json.loads((Path(__file__).resolve().parents[2] / "docs" / "check.schem
 
 
 def check(texremap, paths, reader):
-    """The findings in some paths, and what is wrong with the run itself ("" if nothing)."""
+    """Returns the findings in some paths, and what is wrong with the run itself ("" if nothing is)."""
     command = [texremap, "check", *map(str, paths), "--json", "--quiet", "--fail-on", "possible"] + (["--for", reader] if reader else [])
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=120)
@@ -38,7 +40,7 @@ def check(texremap, paths, reader):
 
 
 def judge(case, findings):
-    """Adds to the case: found rules, verdict and the findings of other rules."""
+    """Adds to the case: the rules found, the verdict, and the findings of other rules."""
     expected = [f for f in findings if f["rule"] in case["rules"]]
     fixed = any(re.search(case["fix"], str(f.get("fix") or ""), re.I | re.S) for f in expected)
     case["findings"], case["further"] = findings, [f for f in findings if f["rule"] not in case["rules"]]
@@ -60,7 +62,7 @@ def main():
         subprocess.run([sys.executable, str(maker), out, "--size", args.size, "--seed-offset", args.seed_offset], check=True)
         cases = json.loads(Path(out, "cases.json").read_text())
         clean_paths = [Path(out, c["path"]) for c in cases if c["report"] == "clean"]
-        all_clean, clean_run = check(args.texremap, clean_paths, None)  # one process
+        all_clean, clean_run = check(args.texremap, clean_paths, None)  # one process for all clean sets
         for case in cases:
             path = str(Path(out, case["path"]))
             if case["report"] == "clean":

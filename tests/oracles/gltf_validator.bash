@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Converts every public glTF file in every direction, and compares what Khronos' validator (npm install gltf-validator) says of
-# each before and after: a conversion adds no error and no warning. Files that fail in part count as well. glTF files made of
-# OBJ files have none, but for what their images bring along.
+# Converts every public glTF file in every direction, and runs Khronos' validator (npm install gltf-validator) on each
+# before and after. A conversion must not add errors or warnings. This includes files that fail in part. glTF files
+# made from OBJ files must have none, except for those that come from their images.
 #
-# Usage: gltf_validator.bash TEXREMAP. NODE_PATH leads to the validator. Skipped (77) without node, the validator or the files.
+# Usage: gltf_validator.bash TEXREMAP. NODE_PATH leads to the validator. The test is skipped (77) without node, the
+# validator or the files.
 set -euo pipefail
 texremap=$(realpath "$1")
 source_folder=$(cd "$(dirname "$0")/../.." && pwd)
@@ -67,7 +68,7 @@ for i in "${!directions[@]}"; do
     ((++written))
   done
   echo "${directions[i]}: $written of ${#files[@]} files written"
-  # An option that is refused would pass as a file that fails.
+  # If an option were refused, this would look like a file that fails.
   ((2 * written > ${#files[@]})) || exit 1
 done
 made=0

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""habits_trial.py TEXREMAP: ten sets as ten tools name them, each converted for five targets by one command.
+"""habits_trial.py TEXREMAP writes ten sets with the names of ten tools, and converts each for five targets by one
+command.
 
-A set has four patches of known values. The command has no option but --to, -o and, for the files of glTF, --layout. What it writes is compared with closed
-forms: engines of the metallic workflow take the same base color, metallic and roughness (Unity 1 - roughness), within two steps of 8
-bits, 0.02 where the set is specular-gloss; Cycles 5, another renderer, within 0.04 of them. Prints the table; exit code 1 if one is wrong.
+A set has four patches of known values. The command has no options except --to, -o and, for the files of glTF,
+--layout. Its results are compared with closed forms. Engines of the metallic workflow must get the same base color,
+metallic and roughness (Unity 1 - roughness) within two steps of 8 bits, or 0.02 if the set is specular-gloss. Cycles
+5, another renderer, must get them within 0.04. Prints the table. The exit code is 1 if a result is wrong.
 """
 import re
 import subprocess
@@ -12,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 SIDE = 8
-PATCHES = [  # base color (linear), metallic, roughness, occlusion: one for each quarter
+PATCHES = [  # base color (linear), metallic, roughness, occlusion of each quarter
     ((0.50, 0.20, 0.10), 0.0, 0.40, 1.0), ((0.90, 0.70, 0.30), 1.0, 0.25, 0.9),
     ((0.20, 0.30, 0.60), 0.0, 0.80, 0.6), ((0.60, 0.60, 0.65), 1.0, 0.60, 0.7)]
 F0 = 0.04
@@ -26,12 +28,12 @@ def linear(x):
     return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
 
 
-VALUES = {  # of a patch, as a map stores them
+VALUES = {  # values of a patch in the form that a map stores
     "base": lambda b, m, r, o: [srgb(c) for c in b], "metallic": lambda b, m, r, o: [m], "rough": lambda b, m, r, o: [r],
     "gloss": lambda b, m, r, o: [1 - r], "ao": lambda b, m, r, o: [o], "normal": lambda b, m, r, o: [0.5, 0.5, 1.0],
     "height": lambda b, m, r, o: [0.5], "orm": lambda b, m, r, o: [o, r, m], "mr": lambda b, m, r, o: [0.0, r, m],
     "unity": lambda b, m, r, o: [m, m, m, 1 - r], "linear base": lambda b, m, r, o: list(b),
-    # Specular-gloss as glTF defines it: diffuse counts 1 - max(specular).
+    # glTF defines specular-gloss like this: diffuse is multiplied by 1 - max(specular).
     "diffuse": lambda b, m, r, o: [srgb(0.0 if m else c) for c in b],
     "specular": lambda b, m, r, o: [srgb(c if m else F0) for c in b]}
 
@@ -58,7 +60,7 @@ SETS = {
 
 TABLES = {"threejs": "mitsuba_ggx_to_threejs_r187_standard_metal.csv", "cycles-5/principled": "mitsuba_ggx_to_cycles_5_principled_metal.csv"}
 PACKED = ("occlusion", "roughness", "metallic")
-TARGETS = {  # options, and by a part of the file name what its channels hold
+TARGETS = {  # the options, and what the channels hold, by a part of the file name
     "gltf": (["--to", "gltf", "--layout", "gltf"], {"baseColor": ("base",), "occlusionRoughnessMetallic": PACKED}),
     "unity": (["--to", "unity"], {"BaseMap": ("base",), "MetallicSmoothness": ("metallic", "metallic", "metallic", "smoothness")}),
     "unreal": (["--to", "unreal"], {"_BC": ("base",), "_ORM": PACKED}),
@@ -67,7 +69,7 @@ TARGETS = {  # options, and by a part of the file name what its channels hold
 
 
 def write_sets(folders):
-    """Maps of four patches, by one call of oiiotool, which takes a quarter of a second to start."""
+    """Writes maps of four patches by a single call of oiiotool, which takes a quarter of a second to start."""
     command = ["oiiotool"]
     for set_name, folder in folders.items():
         folder.mkdir(parents=True)
@@ -81,19 +83,20 @@ def write_sets(folders):
 
 
 def patches_in(paths):
-    """The values of the four patches of each file, as stored, by one call of oiiotool."""
+    """Returns the values of the four patches of each file, as stored, by a single call of oiiotool."""
     text = subprocess.run(["oiiotool", "--no-autopremult", "--dumpdata", *map(str, paths)], check=True, capture_output=True, text=True).stdout
     patches = []
     for dump in re.split(r"(?m)^\S.*\d channel.*$", text)[1:]:
         values = {}
-        for x, y, line in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", dump):  # of whole numbers the shares are in parentheses
+        # for integers, oiiotool prints the values as fractions in parentheses
+        for x, y, line in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", dump):
             values[int(x), int(y)] = [float(v) for v in re.sub(r".*\(|\)", "", line).split()]
         patches.append([values[place] for place in ((1, 1), (SIDE - 2, 1), (1, SIDE - 2), (SIDE - 2, SIDE - 2))])
     return dict(zip(paths, patches))
 
 
 def between(rows, key, at):
-    """Linear interpolation of rows, lists of values that begin with `key` rising."""
+    """Interpolates linearly between rows, which are lists of values that begin with a rising `key`."""
     below = max((row for row in rows if row[key] <= at), key=lambda row: row[key], default=min(rows, key=lambda row: row[key]))
     above = min((row for row in rows if row[key] >= at), key=lambda row: row[key], default=below)
     share = (at - below[key]) / (above[key] - below[key]) if above[key] > below[key] else 0.0
@@ -101,7 +104,7 @@ def between(rows, key, at):
 
 
 def measured(target, base, metallic, roughness):
-    """Base color and roughness of a patch in another renderer, by the table of its metals."""
+    """Returns base color and roughness of a patch in another renderer, by the table of its metals."""
     if target not in TABLES or not metallic:
         return base, roughness
     text = (Path(__file__).resolve().parents[2] / "fits" / "tables" / TABLES[target]).read_text()
@@ -128,7 +131,7 @@ def faults_of(path, patches, contents, tolerance, has_occlusion, target):
 
 
 def convert(texremap, folder, target):
-    """What texremap says where it fails, and the files that it writes."""
+    """Returns what texremap prints if it fails, and the files that it writes."""
     out = folder / "out" / re.sub(r"\W", "_", target)
     run = subprocess.run([texremap, "convert", str(folder), *TARGETS[target][0], "-o", str(out)], capture_output=True, text=True)
     faults = run.stderr.strip().splitlines()[-2:] if run.returncode != 0 else []
@@ -139,7 +142,7 @@ def judge(found, patches, name, target):
     files = TARGETS[target][1]
     has_occlusion = any(kind in ("ao", "orm") for kind in SETS[name].values())
     tolerance = 0.04 if target in TABLES else 0.02 if name == "Marmoset" else 2.1 / 255
-    if not files:  # results keep the names of the inputs, or are named by their parameters
+    if not files:  # results have the names of the inputs, or the names of their parameters
         words = {r"(?i)base.?color|albedo|_diff_|_color|basemap|_bc": ("base",), r"(?i)_?(specRough|roughness|rough)(_2k)?(\.\d+)?\.": ("roughness",)}
         faults = []
         for words_of, contents in words.items():

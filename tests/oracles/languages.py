@@ -3,10 +3,10 @@
 
 Usage: tests/oracles/languages.py [GENERATED, default generated]
 
-Each function of GENERATED/languages runs on one grid, inside and outside of what was measured. C by gcc and clang, Python and
-JavaScript run as they are; GLSL and HLSL are compiled as C++ over a small type of vectors, and checked by glslangValidator where
-it is installed; MaterialX is evaluated node by node, and validated where its package is installed. What is not installed is
-named, and does not count.
+Each function of GENERATED/languages runs on one grid, inside and outside of the measured range. C is compiled by gcc
+and clang. Python and JavaScript run unchanged. GLSL and HLSL are compiled as C++ with a small type for vectors, and
+checked by glslangValidator if it is installed. MaterialX is evaluated node by node, and validated if its package is
+installed. What is not installed is listed and skipped.
 """
 import importlib.util
 import itertools
@@ -21,8 +21,8 @@ import sys
 import tempfile
 import xml.etree.ElementTree as xml
 
-TOLERANCE = 2e-5  # relative above 1, of floats with sums of several terms
-SHARES = [-0.05, 0.0, 0.004, 0.1, 0.35, 0.7, 0.95, 1.0, 1.2]  # of the domain of widths
+TOLERANCE = 2e-5  # absolute, or relative for values above 1; floats with sums of several terms
+SHARES = [-0.05, 0.0, 0.004, 0.1, 0.35, 0.7, 0.95, 1.0, 1.2]  # positions in the domain of widths, as fractions
 COLORS = [(0.0, 0.0, 0.0), (0.04, 0.04, 0.04), (0.9, 0.6, 0.3), (0.02, 0.5, 1.0), (1.2, -0.1, 0.25)]
 
 CPP = """#include <cstdio>
@@ -92,7 +92,7 @@ def floats(data):
 
 
 def grid(header):
-    """Texels of the domain that a header states, and beyond it. Exponents are spaced by alpha."""
+    """Returns texels inside and outside of the domain that a header states. Exponents are spaced evenly in alpha."""
     least, most, color = map(float, re.search(
         r"width_min = ([\d.e+-]+)f, width_max = ([\d.e+-]+)f;.*?specular_max = ([\d.e+-]+)f", header, re.DOTALL).groups())
     if 'kSourceWidth = "exponent"' in header:
@@ -104,7 +104,7 @@ def grid(header):
 
 
 def node_values(graph, texel):
-    """The outputs of a nodegraph. A color is a list."""
+    """Returns the outputs of a nodegraph. A color is a list."""
     values = {"width": texel[0], "specular": list(texel[1:])}
 
     def of(element):

@@ -3,10 +3,10 @@
 
 Usage: tests/oracles/materials.py [GENERATED, default generated]
 
-The header runs by g++ and clang++, the Python module as it is. The graphs are evaluated node by node, all materials at once. The
-values may differ by 1e-5, or by this share of a value above 1. If the package MaterialX is installed, the graphs are also
-validated, found by its ShaderTranslator, and written as GLSL and ESSL; glslangValidator compiles the shaders. What is not installed is
-named, and does not count.
+The header is compiled by g++ and clang++. The Python module runs unchanged. The graphs are evaluated node by node,
+for all materials at once. The values may differ by 1e-5, or by this fraction of a value above 1. If the package
+MaterialX is installed, the graphs are also validated, found by its ShaderTranslator, and written as GLSL and ESSL,
+and glslangValidator compiles the shaders. What is not installed is listed and skipped.
 """
 import pathlib
 import re
@@ -19,13 +19,14 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 MATERIALS, TOLERANCE, MOST_NODES = 10000, 1e-5, 150
-# Inputs whose values are not from 0 to 1.
+# The values of these inputs are not limited to 0 to 1.
 RANGES = {"ior": (1.1, 2.2), "thickness": (0, 900), "depth": (0, 2), "distance": (0, 2), "luminance": (0, 50), "strength": (0, 2),
           "abbe": (9, 91), "dispersion": (0, 40), "radius": (0, 2), "scale": (0, 2), "emission": (0, 5)}
 
 
 def drawn(models, model, random):
-    """Returns an array of shape (MATERIALS, 1 or 3) for each input. A third of the values are 0 or 1, a third the default."""
+    """Returns an array of shape (MATERIALS, 1 or 3) for each input. A third of the values are 0 or 1, and a third are
+    the default."""
     values = {}
     for name, default in models[model].items():
         channels = 3 if isinstance(default, tuple) else 1
@@ -35,7 +36,7 @@ def drawn(models, model, random):
         ends = random.integers(0, 2, (MATERIALS, 1)) * np.ones(shape)
         kind = random.integers(0, 3, (MATERIALS, 1))
         if re.search("ior|abbe", name.lower()):
-            kind = np.maximum(kind, 1)  # an IOR of 0 or 1 has its own test
+            kind = np.maximum(kind, 1)  # another test covers an IOR of 0 or 1
         value = np.where(kind == 0, ends, np.where(kind == 1, value, np.asarray(default, float)))
         if re.search("thin_walled|useSpecular|Mode|_mode", name):
             value = np.round(value)
@@ -44,7 +45,7 @@ def drawn(models, model, random):
 
 
 def header_values(generated, module, compiler, folder, direction, source):
-    """Returns the outputs of the C++ header, by the loop over maps."""
+    """Returns the outputs of the C++ header, from its loop over maps."""
     start, end = direction[0], re.sub("_specular$|_core$", "", direction[1])
 
     def type_name(model):
@@ -127,7 +128,7 @@ class Graph:
 
 
 def worst_difference(values, expected):
-    """Returns the largest difference, as a share of values above 1, and its input."""
+    """Returns the largest difference, as a fraction of values above 1, and its input."""
     worst, where = 0.0, ""
     for name, value in values.items():
         other = expected[name] * np.ones_like(value)
@@ -138,7 +139,7 @@ def worst_difference(values, expected):
 
 
 def check_graphs_in_material_x(generated):
-    """Returns what is missing, after the graphs were validated, found and written as shaders."""
+    """Validates the graphs, finds them, and writes them as shaders. Returns what is missing."""
     try:
         import MaterialX as mx
         import MaterialX.PyMaterialXGenGlsl as glsl
@@ -148,7 +149,7 @@ def check_graphs_in_material_x(generated):
     missing = []
 
     def library_first():
-        """Returns a document with our library before the standard ones."""
+        """Returns a document that contains our library before the standard ones."""
         document = mx.createDocument()
         ours = mx.createDocument()
         mx.readFromXmlFile(ours, str(generated / "materialx" / "remap_translation.mtlx"))
@@ -158,7 +159,7 @@ def check_graphs_in_material_x(generated):
     library = library_first()
     valid, problems = library.validate()
     assert valid, problems
-    # The official translation of the same name lacks this output.
+    # MaterialX' official translation of the same name lacks this output, so the translation found is ours.
     assert library.getNodeDef("ND_open_pbr_surface_to_standard_surface").getOutput("coat_affect_color_out")
     for name in re.findall('nodedef name="ND_([^"]*_to_[^"]*)"', (generated / "materialx/remap_translation.mtlx").read_text()):
         source, target = name.split("_to_")

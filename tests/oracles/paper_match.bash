@@ -1,5 +1,5 @@
-# remapc's match by the objective `paper` against the same match computed apart from it (paper_match.py).
-#   paper_match.bash REMAPC FOLDER
+# paper_match.bash REMAPC FOLDER compares remapc's match by the objective `paper` with the result of a separate
+# program (paper_match.py).
 set -euo pipefail
 readonly remapc=$1 folder=$2
 readonly script=$(dirname "${BASH_SOURCE[0]}")/paper_match.py

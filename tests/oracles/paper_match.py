@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The match of Sztrajman et al. 2019 (headlight, L2 of linear pictures), computed apart from remapc.
+"""Computes the match of Sztrajman et al. 2019 (headlight, L2 of linear pictures) independently of remapc.
 
-Reads tables of `remapc sweep --objective paper` from mitsuba/ward, renders the same spheres from the published formulas
-in NumPy, finds the best width by golden section with the specular in closed form, and compares. Exit code 77 where NumPy
-is missing.
+Reads tables of `remapc sweep --objective paper` from mitsuba/ward, renders the same spheres from the published
+formulas in NumPy, finds the best width by golden section with the specular in closed form, and compares. The exit
+code is 77 without NumPy.
 
-    paper_match.py RESOLUTION TABLE...
+  paper_match.py RESOLUTION TABLE...
 """
 import json
 import math
@@ -21,7 +21,7 @@ ALPHA_TOLERANCE, SPECULAR_TOLERANCE, LEAST_ALPHA = 0.002, 0.005, 0.03
 
 
 def sphere(resolution):
-    """Cosines at the pixels that show the unit sphere from distance 3, light at the camera."""
+    """Returns cosines at the pixels that show the unit sphere from distance 3, with the light at the camera."""
     half = math.tan(math.asin(1.0 / 3.0))
     axis = (np.arange(resolution) + 0.5) / resolution * 2.0 - 1.0
     x, y = np.meshgrid(axis * half, axis * half)
@@ -57,7 +57,7 @@ def beckmann(alpha, cosine):
 
 
 def best(picture, model, start, cosine, irradiance):
-    """Width and F0; under a headlight the half vector is the view, so Schlick's Fresnel is F0."""
+    """Returns width and F0. Under a headlight the half vector is the view, so Schlick's Fresnel is F0."""
 
     def fit(log_alpha):
         target = model(math.exp(log_alpha), cosine) * irradiance
@@ -93,7 +93,7 @@ def compare(path, resolution):
         expected_alpha, slope = matches[alpha]
         worst_alpha = max(worst_alpha, abs(row["alpha2"] - expected_alpha))
         worst_specular = max(worst_specular, abs(row["specular2"] / (slope * specular) - 1.0))
-        if model is ggx:  # appendix A with 0.108 for the misprinted quartic coefficient
+        if model is ggx:  # appendix A; its quartic coefficient is misprinted and must be 0.108
             curve = 1.135 * alpha - 0.766 * alpha**2 + 0.102 * alpha**3 + 0.108 * alpha**4
             worst_curve = max(worst_curve, abs(row["alpha2"] - curve))
         rows += 1

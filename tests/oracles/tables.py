@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""tables.py READER REMAPC REMAP_STUDY: every kind of table that the programs write, and those that ship, as others read them without options.
+"""tables.py READER REMAPC REMAP_STUDY reads every kind of table that the programs write, and the tables that ship,
+with other programs and without options.
 
-READER: numpy (genfromtxt), pandas (read_csv) or soffice (LibreOffice Calc). The first line must be the names of the columns, every
-cell that is a number one of the same value, and nothing else may be there. Skipped (77) without the reader.
+READER is numpy (genfromtxt), pandas (read_csv) or soffice (LibreOffice Calc). The first line must be the names of the
+columns. Every cell with a number must be read as the same number, and the file must contain nothing else. The test is
+skipped (77) without the reader.
 """
 import csv
 import math
@@ -17,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "fits/tables/mitsuba_ward_to_mitsuba_as.csv"
 FIT = ROOT / "fits/mitsuba_ward_to_mitsuba_as.json"
-COMMANDS = [  # what each writes
+COMMANDS = [  # the commands, and what each writes
     (["remapc", "export", TABLE, "-o", "export.csv"], "export.csv"),
     (["remapc", "sweep", "--source", "mitsuba/ward", "--target", "mitsuba/ggx", "--roughness-samples", "3", "--specular-samples", "2",
       "--resolution", "16", "--quiet", "-o", "sweep.csv"], "sweep.csv"),
@@ -31,7 +33,7 @@ COMMANDS = [  # what each writes
 
 
 def number(text):
-    """None where the cell is no number."""
+    """Returns None if the cell is not a number."""
     try:
         return float(text)
     except ValueError:
@@ -39,7 +41,7 @@ def number(text):
 
 
 def same(value, text):
-    """Whether a reader has the number of this text, to the digits that all of them keep."""
+    """Returns true if a reader has the number of this text, to the digits that all readers keep."""
     expected = number(text)
     return value is None if expected is None else value is not None and math.isclose(value, expected, rel_tol=1e-13, abs_tol=0.0)
 
@@ -58,7 +60,7 @@ def by_pandas(path):
 
 
 def open_in_soffice(paths, folder):
-    """The document of each file, by one start, which takes some seconds."""
+    """Converts each file to a document in a single start, which takes some seconds."""
     folder.mkdir()
     copies = [shutil.copy(path, folder / f"{number}.csv") for number, path in enumerate(paths)]
     subprocess.run(["soffice", f"-env:UserInstallation=file://{folder}/profile", "--headless", "--convert-to", "fods", "--outdir", folder,
@@ -67,7 +69,7 @@ def open_in_soffice(paths, folder):
 
 
 def by_soffice(file):
-    """The cells of a document that it has made; a person who opens the file sees the same."""
+    """Returns the cells of such a document. A person who opens the file sees the same."""
     document = xml.etree.ElementTree.parse(file)
     names = {"table": "urn:oasis:names:tc:opendocument:xmlns:table:1.0", "office": "urn:oasis:names:tc:opendocument:xmlns:office:1.0"}
 

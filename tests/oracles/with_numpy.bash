@@ -1,5 +1,5 @@
-# Runs a Python script by a Python that has NumPy, or says that the test is skipped.
-#   with_numpy.bash SCRIPT [ARGUMENT...]
+# with_numpy.bash SCRIPT [ARGUMENT...] runs a Python script by a Python that has NumPy, or reports that the test is
+# skipped.
 set -euo pipefail
 
 for python in python3 /usr/bin/python3; do

@@ -1,4 +1,5 @@
-# Of every test in this folder: its arguments, a fresh folder to work in, and what to say when something is wrong.
+# Every test in this folder sources this file. It sets the arguments, makes a fresh folder to work in, and has
+# functions that report errors.
 set -euo pipefail
 source_folder=$1
 work=$2
@@ -10,7 +11,7 @@ fail() {
   exit 1
 }
 
-# expect_exit CODE COMMAND...: output of both streams goes to $work/output.
+# expect_exit CODE COMMAND... checks the exit code. Both output streams go to $work/output.
 expect_exit() {
   local -r expected=$1
   local status=0
@@ -19,13 +20,13 @@ expect_exit() {
   [[ $status == "$expected" ]] || fail "$*: exit code $status, expected $expected: $(cat "$work/output")"
 }
 
-# expect_output WORDS: however the program breaks its lines (CMake does).
+# expect_output WORDS searches for the words, however the program breaks its lines (CMake does this).
 expect_output() {
   tr -s ' \n' ' ' <"$work/output" | grep -qF -- "$1" || fail "expected the words \"$1\" in: $(cat "$work/output")"
 }
 
-# expected_row FIT ALPHA SPECULAR...: converted alpha and speculars by the formula of the kind `compact`, inside its domain
-# and the limits of its target.
+# expected_row FIT ALPHA SPECULAR... prints converted alpha and speculars by the formula of the kind `compact`, inside
+# its domain and the limits of its target.
 expected_row() {
   python3 - "$@" <<'PROGRAM'
 import json
@@ -47,8 +48,8 @@ print(f"{alpha * factor(mapping['alpha'], max(speculars)):.9g}",
 PROGRAM
 }
 
-# expect_close "NUMBERS" "EXPECTED": alpha within 1e-5, specular within 1e-4, what headers are lowered to, and seven
-# printed digits of inputs that are rounded to float.
+# expect_close "NUMBERS" "EXPECTED" checks alpha within 1e-5 and specular within 1e-4. This allows for the error of
+# lowering, and for seven printed digits of inputs that are rounded to float.
 expect_close() {
   LC_ALL=C awk -v found="$1" -v expected="$2" 'BEGIN {
     n = split(found, f, " ")
@@ -61,5 +62,5 @@ expect_close() {
   }' || fail "found $1, expected $2"
 }
 
-# numbers LINE: those of "model: alpha 1, f0 2 3 4".
+# numbers LINE prints the numbers of "model: alpha 1, f0 2 3 4".
 numbers() { sed 's/.*alpha //; s/, f0//' <<<"$1"; }

@@ -1,5 +1,5 @@
-# What packages are made of: the components have every installed file once, none names a folder of the build, the
-# library is found by CMake and pkg-config where the programs are not, and both programs say what they are.
+# Tests the contents of packages. The components must have every installed file once. No file may contain a folder of
+# the build. CMake and pkg-config must find the library without the programs. Both programs must print their versions.
 source "$(dirname "$0")/check.bash"
 build=$3
 compiler=$4
@@ -11,7 +11,7 @@ for component in remap_tools remap_dev remap_doc; do
 done
 diff <(list_files "$work/all") <(cat <(list_files "$work/remap_tools") <(list_files "$work/remap_dev") <(list_files "$work/remap_doc") | sort) ||
   fail "a file is in no component, or in two"
-# The log of the build names its folders in each line; a file of these names would be one, too.
+# No installed file may contain a path of the sources or of the build.
 ! grep -rlF -e "$source_folder/" -e "$build" "$work/all" || fail "an installed file names a folder of the build"
 
 dev=$work/remap_dev
@@ -20,7 +20,7 @@ dev=$work/remap_dev
 for page in README.md docs/tutorial.md docs/conversion.png docs/reference/texremap.md; do
   [[ -f $work/all/share/doc/remap/$page ]] || fail "$page: is not installed"
 done
-# Links of pages lead somewhere, but for those to sources.
+# Links of pages must lead somewhere, except for links to sources.
 python3 - "$work/all/share/doc/remap" <<'PROGRAM' || fail "pages have links that lead nowhere"
 import pathlib, re, sys
 root = pathlib.Path(sys.argv[1])
@@ -31,7 +31,7 @@ print(*missing, sep="\n")
 sys.exit(bool(missing))
 PROGRAM
 
-# The library without the programs, wherever it was moved to.
+# This tests the library without the programs, after it was moved.
 mv "$dev" "$work/moved"
 sed '/own_fit/d; /^add_executable(shipped/d; /shipped PRIVATE/d' "$source_folder/examples/outside_project/CMakeLists.txt" >"$work/CMakeLists.txt"
 cp "$source_folder/examples/outside_project/convert_buffers.cpp" "$work"
@@ -55,7 +55,7 @@ if type -P pkg-config >/dev/null; then
   expect_output "remapc $version build: "
 fi
 
-# The first line is the version, as it always was; then what a report of an error should say.
+# The first line is the version. Facts for error reports follow.
 expect_exit 0 "$work/remap_tools/bin/remapc" --version
 for words in "data: $(grep -c '^ *{"id":' "$source_folder/generated/converters.json") converters, SHA-256 $(
   sha256sum "$source_folder/generated/converters.json" | head -c 12)..." "libraries: OpenImageIO " "libwebp 1." "Eigen 3."; do

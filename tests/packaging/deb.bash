@@ -1,7 +1,7 @@
-# The Debian packages of a folder, in a Debian that has nothing else: lintian finds no error, apt installs them, the programs
-# do their work in an empty folder, and a project outside builds against the library by CMake and by pkg-config. Needs
-# root, debootstrap and a mirror (REMAP_DEBIAN_MIRROR). What it measures is in the file report.
-# Run by `scripts/package deb --test`.
+# Tests the Debian packages of a folder, in a Debian that has nothing else. lintian must find no error, and apt must
+# install them. The programs must work in an empty folder. A project outside must build against the library by CMake
+# and by pkg-config. Needs root, debootstrap and a mirror (REMAP_DEBIAN_MIRROR). Its measurements are in the file
+# report. `scripts/package deb --test` runs it.
 source "$(dirname "$0")/check.bash"
 packages=$(cd "$3" && pwd)
 work=$(cd "$work" && pwd)
@@ -20,7 +20,7 @@ report() { printf '%s\n' "$*" | tee -a "$work/report"; }
 expect_exit 0 lintian --fail-on error,warning --tag-display-limit 0 --allow-root "$packages"/*.deb
 report "lintian: $(grep -c '^[EW]:' "$work/output" || true) errors and warnings"
 
-# No file names a folder of the build.
+# No file may contain a folder of the build.
 for package in "$packages"/*.deb; do
   dpkg-deb --extract "$package" "$work/extracted"
 done
@@ -36,7 +36,7 @@ cp "$packages"/*.deb "$debian/packages"
 cp -r "$source_folder/examples/outside_project" "$debian/away/project"
 
 inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C chroot "$debian" "$@"; }
-# install NAME WORDS...: by apt, and what came with it.
+# install NAME WORDS... installs by apt, and reports what else was installed.
 install() {
   local -r name=$1
   shift
@@ -46,9 +46,9 @@ install() {
     sed -n 's/^Need to get \(.*\) of archives.*/\1/p' "$work/output" | sed 's|.*/||') fetched, $(
     sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' "$work/output") on disk, $((SECONDS - start)) s"
 }
-# file_of PACKAGE: its file as apt there must be told.
+# file_of PACKAGE prints the path of the package's file inside the system, in the form that apt needs.
 file_of() { (cd "$debian" && echo packages/"$1"_*.deb | sed 's|^|/|'); }
-# away COMMANDS: run in an empty folder.
+# away COMMANDS runs them in an empty folder.
 away() { expect_exit 0 inside bash -c "set -euo pipefail; mkdir -p /away/empty; cd /away/empty; $1"; }
 
 expect_exit 0 inside apt-get update
@@ -60,7 +60,7 @@ install libremap-dev "$(file_of libremap-dev)" g++ cmake make pkg-config
 away 'g++ -std=c++20 $(pkg-config --cflags remap) ../project/convert_buffers.cpp $(pkg-config --libs remap) -o by_pkg_config &&
   ./by_pkg_config'
 expect_output "65536 texels, "
-# Without remapc, only what needs it is missing.
+# Without remapc, only targets that need it may be missing.
 expect_exit 1 inside cmake -S /away/project -B /away/first
 expect_output "remapc is not here, which emits the header (install the package remap-tools,"
 
@@ -95,7 +95,7 @@ away 'cmake -S /away/project -B /away/second -DCMAKE_BUILD_TYPE=Release && cmake
 expect_output "65536 texels, "
 
 install remap-doc "$(file_of remap-doc)"
-# minbase leaves documentation in: pages, and the folders that they link to.
+# This system keeps documentation: the pages, and the folders that they link to.
 away 'ls /usr/share/doc/remap/README.md /usr/share/doc/remap/docs/conversion.png /usr/share/doc/remap/examples/README.md \
   /usr/share/doc/remap/fits/README.md /usr/share/doc/remap/generated/LICENSE /usr/share/man/man1/texremap-convert.1.gz'
 away 'apt-get purge --yes remap-tools libremap-dev remap-doc; ! ls -d /usr/share/remap /usr/lib/remap /usr/include/remap'

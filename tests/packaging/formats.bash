@@ -1,13 +1,13 @@
-# Files in the formats of versions that are still read, as those versions wrote them: never change one of formats/. A new
-# version of a format adds files, and takes away what is no longer read, with a line of CHANGELOG.md. What was read
-# before is refused with what to do.
+# Tests files in earlier formats that are still read. They were written by earlier versions. Never change a file in
+# formats/. A new version of a format adds files. If a version is no longer read, its files are removed, with a line
+# in CHANGELOG.md. Such files must then be refused with advice.
 source "$(dirname "$0")/check.bash"
 bin=$3
 formats=$source_folder/tests/packaging/formats
 id=mitsuba_ward_to_mitsuba_as
 cd "$work"
 
-# Names of fits are their ids.
+# The name of a fit must be its id.
 mkdir fits
 cp "$formats/fit.json" fits/$id.json
 cp "$formats/workflow.json" fits/gltf_to_gltf_specgloss.json

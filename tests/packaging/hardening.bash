@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# hardening.bash PROJECT WORK CONFIGURATION FILE...: programs and modules are built against faults of memory (cmake/RemapHardening.cmake).
+# hardening.bash PROJECT WORK CONFIGURATION FILE... checks that programs and modules are hardened against memory
+# errors (cmake/RemapHardening.cmake).
 set -euo pipefail
 readonly configuration=$3
 shift 3
 failed=0
 
-# expect FILE WHAT PATTERN COMMAND...: the output of the command has the pattern.
+# expect FILE WHAT PATTERN COMMAND... checks that the output of the command matches the pattern.
 expect() {
   local -r file=$1 what=$2 pattern=$3
   shift 3

@@ -1,5 +1,5 @@
-# scripts/install-packages where it can install nothing, on a path that holds stubs only: it must name what is
-# missing and end with exit code 1; and where nothing is missing it must be silent.
+# Tests scripts/install-packages on a path that has only stubs. If it can install nothing, it must print what is
+# missing and end with exit code 1. If nothing is missing, it must be silent.
 source "$(dirname "$0")/check.bash"
 stubs=$work/stubs
 mkdir "$stubs"
@@ -10,7 +10,7 @@ stub() {
   chmod +x "$stubs/$1"
 }
 install_packages() { env -u REMAP_PACKAGES PATH="$stubs" "$@" "$source_folder/scripts/install-packages" build clang </dev/null; }
-# All is there but Ceres and CLI11.
+# Everything is installed except Ceres and CLI11.
 some_missing='case ${!#} in libceres-dev | libcli11-dev) exit 1 ;; *) echo -n installed ;; esac'
 expect_advice() { expect_output "apt-get install --no-install-recommends libceres-dev libcli11-dev"; }
 

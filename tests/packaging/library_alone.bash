@@ -1,5 +1,5 @@
-# The library alone configures where the packages of the programs are missing, and has no rules for them. Its sources
-# compile in a minute: REMAP_CAMPAIGN=full builds, installs and uses it.
+# Tests that the library can be configured without the programs, if their packages are missing, and that it has no
+# rules for them. Its sources compile in a minute, so only REMAP_CAMPAIGN=full builds, installs and uses it.
 source "$(dirname "$0")/check.bash"
 compiler=$3
 
@@ -13,7 +13,7 @@ expect_exit 0 ninja -C "$work/build" -t targets all
 grep -q '^runtime/libremap.a' "$work/output" || fail "there is no library: $(cat "$work/output")"
 ! grep -E '^bin/|_test|openimageio|CLI' "$work/output" || fail "there is more than the library"
 
-# Every test and program needs the programs.
+# All tests need the programs.
 expect_exit 0 cmake "$work/build" -DREMAP_BUILD_TESTS=ON -DREMAP_BUILD_COMPILER=ON
 expect_exit 0 ninja -C "$work/build" -t targets all
 ! grep -E '^bin/|_test' "$work/output" || fail "there are tests or programs"

@@ -1,12 +1,12 @@
-# A project outside of the tree finds the installed package, uses a shipped header, the library, and a header emitted
-# at build time, and emits again when its fit changes.
+# Tests a project outside of the tree. It finds the installed package, uses a shipped header, the library, and a
+# header emitted at build time, and emits again when its fit changes.
 source "$(dirname "$0")/check.bash"
 build=$3
 compiler=$4
 id=mitsuba_ward_to_mitsuba_as
 prefix=$work/prefix
 
-# The project must not lie in the tree, where a lookup upwards could find what is not installed.
+# The project must not lie in the tree, because there a search in parent folders could find what is not installed.
 project=$(mktemp -d)
 trap 'rm -rf "$project"' EXIT
 cp -r "$source_folder/examples/outside_project/." "$project"
@@ -18,7 +18,7 @@ done
 ! grep -rlF -e "$source_folder" -e "$build" "$prefix"/lib* "$prefix/include" ||
   fail "an installed file names a folder of the build"
 
-# The installed programs find the module that reads images, and say what to do where it is missing.
+# The installed programs must find the module that reads images, and give advice if it is missing.
 map=$work/map.exr
 expect_exit 0 "$prefix/bin/remapc" render --model mitsuba/ggx --set alpha=0.3 --set f0=0.5,0.4,0.3 --resolution 8 -o "$map"
 convert_map() {
@@ -30,7 +30,7 @@ expect_exit 1 convert_map
 expect_output "lib/remap/images.so: file not found; it reads and writes images (install it with the programs, by cmake --install)"
 mv "$work/images.so" "$prefix/lib/remap"
 
-# The commands of README.md, and those that look fits up, work away from the tree, in a folder without fits.
+# The commands of README.md, and commands that look up fits, must also work in an empty folder outside of the tree.
 away=$(mktemp -d)
 trap 'rm -rf "$project" "$away"' EXIT
 {
@@ -57,7 +57,7 @@ configure() {
   cmake -S "$project" -B "$project/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE=Release
 }
-# second_row PROGRAM: what it gives for alpha 0.2, specular 0.7 0.5 0.
+# second_row PROGRAM prints its result for alpha 0.2, specular 0.7 0.5 0.
 second_row() {
   expect_exit 0 "$project/build/$1"
   expect_output "0 texels out of domain"
@@ -86,7 +86,7 @@ for file in man/man1/texremap-convert.1 bash-completion/completions/remapc zsh/s
   [[ -f $prefix/share/$file ]] || fail "$file is not installed"
 done
 
-# Each public header can be included by itself, and needs nothing that is not installed.
+# Each public header must compile when it is included first, and must need nothing that is not installed.
 for header in "$prefix"/include/remap/*.hpp; do
   [[ $header == *_to_*.hpp ]] || echo "#include \"$header\""
 done >"$work/headers.txt"

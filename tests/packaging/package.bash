@@ -1,4 +1,5 @@
-# What scripts/package and scripts/release say before they build anything, and the bill of materials of a release.
+# Tests what scripts/package and scripts/release print before they build anything, and the bill of materials of a
+# release.
 source "$(dirname "$0")/check.bash"
 scripts=$source_folder/scripts
 
@@ -21,7 +22,7 @@ expect_output "unknown option '--chek'; try --help"
 expect_exit 2 "$scripts/release" rpm
 expect_output "unknown kind 'rpm'; try scripts/package --help"
 
-# Packages as their tools write them, without their contents.
+# These packages look as their tools write them, but have no contents.
 mkdir -p "$work/release" "$work/npm/package" "$work/wheel/texremap-0.1.0.dist-info"
 echo sources >"$work/release/remap-0.1.0.tar.gz"
 echo '{"dependencies": {"fast-png": "^8.0.0", "@gltf-transform/core": "^4.5.1"}}' >"$work/npm/package/package.json"

@@ -1,6 +1,6 @@
-# The Python package: a wheel over the libraries of this build, in an environment that has nothing else, and its tests, which
-# compare arrays with closed forms and the command with the program. Skipped (77) where Python's headers or the packages that
-# it needs cannot be had.
+# Tests the Python package. A wheel of the libraries of this build is installed into an environment that has nothing
+# else. Its tests compare arrays with closed forms, and the command with the program. The test is skipped (77) if
+# Python's headers or the packages that it needs are missing.
 source "$(dirname "$0")/check.bash"
 build=$3
 python=${REMAP_PYTHON:-python3}
@@ -17,10 +17,10 @@ skip() {
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check -c "$source_folder/packages/python/pinned.txt" scikit-build-core nanobind numpy pytest hypothesis OpenImageIO \
   usd-core MaterialX >"$work/pip.log" 2>&1 || skip "packages cannot be installed: $(tail -n 1 "$work/pip.log")"
 
-# Without optimiser nanobind also checks that objects of Python are touched under the interpreter's lock alone.
+# Without optimiser, nanobind also checks that Python objects are only used under the interpreter's lock.
 expect_exit 0 env SKBUILD_BUILD_DIR="$work/module" "$work/venv/bin/pip" install --disable-pip-version-check --no-build-isolation \
   --no-deps --config-settings=cmake.build-type=Debug --config-settings=cmake.define.REMAP_CORE="$build" "$source_folder"
-# The tests of the repository, with the installed package.
+# Runs the tests of the repository with the installed package.
 cp -r "$source_folder/packages" "$work/packages"
 rm -r "$work/packages/python/texremap"
 ln -s "$source_folder/fits" "$source_folder/generated" "$work"

@@ -1,5 +1,5 @@
-# The texture set of the demo: the same bytes every time, what texremap expects, and a clear failure where it cannot
-# be written.
+# Tests the texture set of the demo. It must have the same bytes every time and be what texremap expects. If it cannot
+# be written, the failure must be clear.
 source "$(dirname "$0")/check.bash"
 bin=$3
 mkdir "$work/first" "$work/second"
@@ -12,7 +12,7 @@ done
 expect_exit 0 oiiotool --stats "$work/first/roughness.exr"
 expect_output "128 x 128, 1 channel, half openexr"
 expect_output "NanCount: 0"
-# Alpha between 0.03 and 0.9, and varied: that is what the demo is to show.
+# The demo needs different alphas, between 0.03 and 0.9.
 LC_ALL=C awk '/Stats Min/ { low = $3 } /Stats Max/ { high = $3 } /Stats StdDev/ { spread = $3 }
   END { exit !(low >= 0.0299 && high <= 0.9001 && spread > 0.05) }' "$work/output" ||
   fail "the roughness is out of range: $(cat "$work/output")"

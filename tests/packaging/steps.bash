@@ -1,5 +1,5 @@
-# The lines that scripts/demo, scripts/test and .ci/run are made of: quiet about success, loud about failure, from
-# any folder.
+# Tests the lines that scripts/demo, scripts/test and .ci/run print. They must be short after success and detailed
+# after failure, from any folder.
 source "$(dirname "$0")/check.bash"
 cd "$work"
 
@@ -18,14 +18,14 @@ expect_output "the reason"
 expect_output "Failed: Break (exit code 7); the whole log: $work/log"
 ! grep -q "went on" "$work/output" || fail "a script goes on after a failed step"
 
-# A step never waits for somebody to type.
+# A step must not wait for somebody to type.
 expect_exit 0 script 'step "Read" bash -c "! read -r line"'
 
 printf '{\n  "rms": 0.25,\n  "max": 1e-06,\n  "rms": -3\n}\n' >"$work/numbers.json"
 expect_exit 0 script "json_number $work/numbers.json rms; json_number $work/numbers.json max; json_number $work/numbers.json rms 2"
 [[ $(xargs <"$work/output") == "0.25 1e-06 -3" ]] || fail "numbers are misread: $(cat "$work/output")"
 
-# A folder of tests as ctest sees them: one of each kind.
+# This is a folder of tests in the form that ctest reads, one of each kind.
 mkdir tests
 cat >tests/CTestTestfile.cmake <<'CMAKE'
 add_test(good true)
@@ -41,7 +41,7 @@ expect_output "0 1 0"
 expect_exit 2 "$source_folder/scripts/test" quik
 expect_output "unknown argument 'quik'; try --help"
 
-# Warnings are errors where remap is tested, and nowhere else: newer compilers warn of more.
+# Warnings are only errors where remap is tested, because newer compilers have more warnings.
 expect_exit 0 script 'cmake() { echo "cmake $*"; }; cmake_options=(-DREMAP_WARNINGS_AS_ERRORS=ON); build_preset release texremap'
 expect_output "cmake --preset release -DREMAP_WARNINGS_AS_ERRORS=ON"
 expect_output "cmake --build --preset release --target texremap"

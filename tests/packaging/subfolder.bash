@@ -1,6 +1,6 @@
-# A project that carries remap as a subfolder configures with the same commands, gets no rules of installation or
-# tests from it, and has its headers by the same include. Building remapc once more would take minutes: what the
-# targets promise is read from the build files.
+# Tests a project with remap as a subfolder. The same commands must configure it. remap must not add installation
+# rules or tests to it. Its includes must find remap's headers in the same way. Building remapc again would take
+# minutes, so the test reads the build files instead.
 source "$(dirname "$0")/check.bash"
 compiler=$3
 id=mitsuba_ward_to_mitsuba_as
@@ -25,7 +25,7 @@ expect_exit 0 cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_CXX_COMPILER="$
 expect_exit 0 cmake --build "$work/build" --target shipped
 expect_exit 0 "$work/build/shipped"
 
-# The plan to build own_fit has remapc first, then the emission, then the program.
+# The plan to build own_fit must have remapc first, then the emission, then the program.
 expect_exit 0 ninja -C "$work/build" -n -v own_fit also_own_fit
 line_of() { grep -nE -m 1 -- "$1" "$work/output" | cut -d : -f 1; }
 linked=$(line_of '-o remap/bin/remapc') emitted=$(line_of "remapc emit .*fits/$id.json") compiled=$(line_of 'own_fit.dir/main.cpp.o -c')

@@ -1,6 +1,7 @@
-// Runs generated headers as a user's program would: reads texels, writes what every entry point gives. Built
-// by the parity test with each compiler and each set of flags. The test writes headers.hpp, which includes
-// the headers under test and defines CONVERTERS(ENTRY) as ENTRY(ID) of each, and HEADER_COUNT.
+// This program runs generated headers as a user's program does: it reads texels and writes the results of
+// every entry point. The parity test builds it with each compiler and each set of flags. The test writes
+// headers.hpp, which includes the headers under test, and defines CONVERTERS(ENTRY) as ENTRY(ID) for each,
+// and HEADER_COUNT.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -12,7 +13,7 @@
 
 namespace {
 
-// Half of a float: a type of a caller.
+// A Half is the upper half of a float. A caller may have such a type.
 struct Half {
   explicit Half(float value) {
     std::uint32_t bits = 0;
@@ -28,14 +29,14 @@ struct Half {
   std::uint16_t upper;
 };
 
-// Texels in place or not: the width, and red.
+// A Buffers points to the width and to the red channel of texels. Inputs and outputs may be the same.
 template <class T>
 struct Buffers {
   T *width, *red;
   std::size_t width_stride, stride;
 };
 
-// The entry points of one header.
+// A Converter has the entry points of one header.
 struct Converter {
   const char* id;
   bool (*self_test)();
@@ -63,7 +64,7 @@ std::size_t texels(std::size_t count, const Buffers<T>& in, const Buffers<T>& ou
       {out.width, {out.red, out.red + 1, out.red + 2}, out.width_stride, out.stride});
 }
 
-// Two element types of many headers, with optimisation, would take compilers half a minute.
+// With optimisation, compilers would need half a minute for two element types of many headers.
 #ifdef __OPTIMIZE__
 constexpr bool kChecksTexels = HEADER_COUNT == 1;
 #else
@@ -104,8 +105,8 @@ Converter entry_of(const char* id) {
 #define ENTRY(ID) entry_of<remap::ID>(#ID),
 const Converter kConverters[] = {CONVERTERS(ENTRY)};
 
-// Bit for bit; of two NaN operands a product may hand on either, so any NaN is the same. Under fast-math rows
-// may divide another way than single texels.
+// Compares bit for bit. All NaN are equal, because a product of two NaN may return either. Under fast-math,
+// rows may divide in another way than single texels.
 bool same_bits(const float* a, const float* b, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     if (std::isnan(a[i]) && std::isnan(b[i])) continue;
@@ -126,15 +127,15 @@ int fail(const char* what) {
   return 1;
 }
 
-// Where the elements of a texel are.
+// A Layout states where the elements of a texel are.
 struct Layout {
   std::size_t stride, red, width;
-  std::size_t apart;  // the width has a buffer of its own, with so many elements a texel; 0: it has none
+  std::size_t apart;  // elements per texel in a separate buffer of the width; 0: no such buffer
 };
 constexpr Layout kLayouts[] = {{4, 0, 3, 0}, {4, 1, 0, 0}, {4, 0, 1, 2},
                                {3, 0, 0, 2}, {3, 0, 0, 1}, {5, 1, 4, 0}};
 
-// Planar rows as texels; 7 between them.
+// An Interleaved holds planar rows as texels. Elements that belong to no row are 7.
 template <class T>
 struct Interleaved {
   Interleaved(const Layout& layout, std::size_t count)
@@ -163,7 +164,7 @@ struct Interleaved {
   std::vector<T> color, width;
 };
 
-// Whether texels give what planar rows of the same values do.
+// Returns true if texels give the same results as planar rows of the same values.
 template <class T>
 bool texels_agree(const Converter& converter,
                   std::size_t (*convert)(std::size_t, const Buffers<T>&, const Buffers<T>&),
@@ -185,12 +186,12 @@ bool texels_agree(const Converter& converter,
   return true;
 }
 
-// What the header gives for planar `rows`, and whether its entry points agree. 0 where they do.
+// Computes what the header gives for planar `rows`. Returns 0 if its entry points agree.
 int check(const Converter& converter, const std::vector<float>& rows, std::vector<float>& single) {
   if (!converter.self_test()) return fail("self_test failed");
   const std::size_t count = rows.size() / 4;
 
-  // One texel at a time: the definition of correctness.
+  // Converting one texel at a time defines the correct result.
   single.resize(4 * count);
   std::vector<float> of_one(2 * count);
   std::size_t outside = 0;
@@ -215,7 +216,7 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
     for (std::size_t r = 0; r < 2; ++r) of_one[r * count + i] = alone[r];
   }
 
-  // Rows, at every offset that a block can start with.
+  // Converts rows at every offset at which a block can start.
   for (const std::size_t skip : {std::size_t{0}, std::size_t{1}, std::size_t{37}, std::size_t{130}}) {
     if (skip > count) continue;
     std::vector<float> batch(single);
@@ -226,7 +227,7 @@ int check(const Converter& converter, const std::vector<float>& rows, std::vecto
     if (skip == 0 && found != outside) return fail("rows count other texels out of domain than in_domain()");
   }
 
-  // In place, all rows and some rows.
+  // Converts in place: all rows, then some rows.
   std::vector<float> in_place(rows);
   converter.rows_of_three(count, &in_place[0], {&in_place[count], &in_place[2 * count], &in_place[3 * count]},
                           &in_place[0], {&in_place[count], &in_place[2 * count], &in_place[3 * count]});
@@ -262,8 +263,9 @@ bool write(const std::string& path, const std::vector<float>& values) {
 
 }  // namespace
 
-// Usage: driver FOLDER. Of each header: planar floats, width and three channels of each texel, from
-// FOLDER/ID.in; the same, and as one float the texels out of domain, to FOLDER/ID.out.
+// Usage: driver FOLDER. For each header, it reads FOLDER/ID.in: planar floats with the width and three
+// channels of each texel. It writes FOLDER/ID.out: the results in the same form, and the number of texels out
+// of domain as one float.
 int main(int argc, char** argv) {
   if (argc != 2) return fail("usage");
   for (const Converter& converter : kConverters) {

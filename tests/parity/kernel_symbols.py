@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that the objects of kernels define no function that a linker could take for that of another file.
+"""Checks that the objects of kernels define no function that a linker could confuse with a function of another file.
 
   kernel_symbols.py NM OBJECT...
 
-Objects that are compiled for wider instruction sets must keep their functions to themselves: of inline functions, a
-linker keeps one copy, which every processor then runs.
+Objects that are compiled for wider instruction sets must keep their functions to themselves. The reason is that a
+linker keeps only one copy of an inline function, which every processor then runs.
 """
 import subprocess
 import sys
@@ -17,7 +17,8 @@ shared = []
 for path in kernels:
     for line in subprocess.run([nm, "-C", path], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, name = line[17:].split(" ", 1)
-        # T: a function that others call; W, u: one that others may define too. Sanitizers add functions of their own.
+        # T is a function that other files call. W and u are functions that other files may define, too. Sanitizers
+        # add their own functions.
         if kind in "TWu" and ("remap::" in name or "std::" in name):
             shared.append(f"{path}: {kind} {name}")
 if shared:

@@ -1,5 +1,5 @@
-// Generated headers against the interpreter: built by gcc and clang with and without optimisation and AVX2,
-// on a grid, at random and on edges.
+// This file compares generated headers with the interpreter. They are built by gcc and clang with and without
+// optimisation and AVX2, and run on a grid, at random and on edges.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -35,7 +35,7 @@ struct Build {
 
 bool succeeds(const std::string& command) { return std::system(command.c_str()) == 0; }
 
-// Every compiler that is there; both in CI.
+// Returns every compiler that is installed. CI has both.
 std::vector<std::string> compilers() {
   std::vector<std::string> found;
   for (const std::string compiler : {"g++", "clang++"})
@@ -43,9 +43,9 @@ std::vector<std::string> compilers() {
   return found;
 }
 
-// Where products are fused with sums, a compiler may do so in rows and not in single texels (decision 014).
-// Vectors without optimisation, or with little of it, in full campaigns only. Sanitizers watch the emitter,
-// not its headers: one build.
+// A compiler may fuse products with sums in rows, but not in single texels (decision 014). Vectorised code
+// with little or no optimisation is only tested in full campaigns. Sanitizers check the emitter, not its
+// headers, so they need only one build.
 std::vector<Build> builds() {
   const bool avx2 = has_avx2();
   std::vector<Build> all;
@@ -64,7 +64,7 @@ Fit committed_fit() {
   return load_fit(fs::path(REMAP_SOURCE_DIR) / "fits" / "mitsuba_ward_to_mitsuba_as_sztrajman_2019.json");
 }
 
-// A header under test: the fit, and what the header promises.
+// A MadeModel is a header under test: the fit, and what the header promises.
 struct MadeModel {
   Fit fit;
   double alpha_within = 2e-6, specular_within = 2e-6;
@@ -75,7 +75,7 @@ MadeModel lowered(Fit fit) {
   return {fit, fit.converter->alpha_bound, fit.converter->specular_bound};
 }
 
-// Rows of a smooth table, for regressions.
+// Returns rows of a smooth table, for regressions.
 std::vector<TableRow> rows_of(const Parametric& form, const Domain& domain) {
   std::vector<TableRow> rows;
   for (int i = 0; i <= 12; ++i)
@@ -91,10 +91,10 @@ std::vector<TableRow> rows_of(const Parametric& form, const Domain& domain) {
   return rows;
 }
 
-// What does not vanish with specular needs a domain above 0.
+// If a mapping does not vanish with specular, its domain must begin above 0.
 constexpr Domain kBright = {{0.2, 0.95}, {0.15, 0.6}};
 
-// The kinds, forms and conventions that no committed fit has.
+// Returns models of the kinds, forms and conventions that no committed fit has.
 std::vector<MadeModel> subjects() {
   const Fit base = committed_fit();
   std::vector<MadeModel> all = {lowered(base)};
@@ -136,7 +136,7 @@ std::vector<MadeModel> subjects() {
   add("from_squared", RoughnessEncoding::kSquared, kAlpha, full);
   add("to_exponent", kAlpha, RoughnessEncoding::kExponent, paper);
   add("from_exponent", RoughnessEncoding::kExponent, kAlpha, full);
-  Fit capped = base;  // at both limits, without a hinge
+  Fit capped = base;  // the target is at both limits and has no hinge
   capped.id = "capped";
   capped.mapping = Parametric{{{1.3}}, {{1, {1.4, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   capped.domain = {{0.02, 0.95}, {0.0, 1.0}};
@@ -154,7 +154,7 @@ std::vector<MadeModel> subjects() {
   return all;
 }
 
-// Planar texels: width, then three channels.
+// Returns planar texels: width, then three channels.
 std::vector<float> texels(const Fit& fit) {
   const Range own = own_roughness_range(fit), specular = specular_range(fit);
   const float low = static_cast<float>(own.min), high = static_cast<float>(own.max),
@@ -187,7 +187,7 @@ std::vector<float> texels(const Fit& fit) {
                          nan,
                          -nan,
                          -1.0f};
-  // A product that no float holds differs from that of doubles.
+  // In floats, this product overflows, so it differs from the product of doubles. Such texels are left out.
   for (const float width : edges)
     for (const float channel : edges)
       if (channel != 3.4e38f) rows.push_back({width, channel, 0.25f * top, channel});
@@ -208,7 +208,7 @@ std::vector<float> read_floats(const fs::path& path) {
   return values;
 }
 
-// Within `within`, or four units in the last place of a float where that is more.
+// Returns true if the difference is at most `within`, or at most four units in the last place of a float.
 bool close(float value, double expected, double within) {
   if (std::isnan(expected)) return std::isnan(value);
   if (std::isinf(expected) || std::fabs(expected) > 3.4e38)
@@ -219,8 +219,8 @@ bool close(float value, double expected, double within) {
   return std::fabs(static_cast<double>(value) - expected) <= std::max(within, 4.0 * ulp);
 }
 
-// Judged as the alpha it stands for: an exponent is 2 / alpha^2 - 2 and doubles its relative error, a root
-// doubles nothing but is steep at 0. A float of the parameter itself is as close as can be.
+// Compares widths as alpha. An exponent is 2 / alpha^2 - 2, which doubles its relative error. A square root
+// does not double it, but is steep at 0. Adjacent floats of the parameter limit how close the result can be.
 bool close_width(const MadeModel& subject, float value, double expected) {
   const RoughnessEncoding convention = subject.fit.target.roughness;
   if (convention == RoughnessEncoding::kAlpha || !std::isfinite(expected))
@@ -241,7 +241,7 @@ void check_against_interpreter(const MadeModel& subject, const std::vector<float
     const double width = evaluate_texel(subject.fit, in[i], specular, expected, &inside);
     outside += inside ? 0 : 1;
     bool right = close_width(subject, out[i], width);
-    double scale = 1.0;  // extrapolation scales what the edge of the domain gives, and its error with it
+    double scale = 1.0;  // extrapolation multiplies the result at the edge of the domain, and also its error
     for (const double channel : specular)
       if (std::isfinite(channel)) scale = std::max(scale, channel / subject.fit.domain.specular.max);
     for (std::size_t c = 0; c < 3; ++c)
@@ -256,7 +256,7 @@ void check_against_interpreter(const MadeModel& subject, const std::vector<float
   CHECK(out.back() == static_cast<float>(outside));
 }
 
-// The headers of `subjects`, their texels and headers.hpp, in a folder of its own.
+// Headers holds the headers of `subjects`, their texels and headers.hpp, in a separate folder.
 class Headers {
  public:
   explicit Headers(const std::vector<MadeModel>& made) : subjects_(made) {
@@ -274,14 +274,14 @@ class Headers {
 
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  // Puts 0.5 in place of zeros, denormals, infinities and NaN.
+  // Replaces zeros, denormals, infinities and NaN by 0.5.
   void keep_normal_texels() {
     for (std::vector<float>& values : inputs_)
       for (float& value : values)
         if (!std::isnormal(value)) value = 0.5f;
   }
 
-  // One compiler run and one program run for all headers.
+  // Runs the compiler once and the program once, for all headers.
   void check(const Build& build) const {
     INFO(build.compiler << " " << build.flags);
     REQUIRE(succeeds(build.compiler + " -std=c++17 " + build.flags + kHeaderFlags + "-I" +
@@ -310,7 +310,7 @@ TEST_CASE("generated header: agrees with the interpreter for every compiler and 
   for (const Build& build : builds()) headers.check(build);
 }
 
-// One build with and one without optimisation for each compiler.
+// Each compiler builds once with and once without optimisation.
 TEST_CASE("generated header: every kind, form and convention agrees with the interpreter", "[slow]") {
   const Headers headers(subjects());
   for (const Build& build : builds())
@@ -319,8 +319,8 @@ TEST_CASE("generated header: every kind, form and convention agrees with the int
       headers.check(build);
 }
 
-// In other tests a header follows others, which may have included what it lacks. By one compiler: both read
-// the same standard library.
+// In other tests a header follows other headers, which may include what it lacks. One compiler is enough,
+// because both use the same standard library.
 TEST_CASE("generated header: needs no other header before it", "[slow]") {
   const Headers headers(subjects());
   std::string files;
@@ -330,9 +330,9 @@ TEST_CASE("generated header: needs no other header before it", "[slow]") {
   CHECK(succeeds(found[0] + " -std=c++17 -fsyntax-only -x c++" + files));
 }
 
-// A changed header has a name of its own, so that one program holds all of them.
+// A changed header gets another name, so that one program can include all of them.
 TEST_CASE("generated header: self_test fails when any one coefficient is changed", "[slow]") {
-  // Alpha, and an exponent, whose golden texels reach from 0 to thousands.
+  // One target has alpha. The other has an exponent, whose golden texels range from 0 to thousands.
   const std::string id = GENERATE("mitsuba_ward_to_mitsuba_as", "mitsuba_as_to_threejs_r187_phong");
   const TemporaryFolder folder;
   Fit fit = load_fit(REMAP_SOURCE_DIR "/fits/" + id + ".json");
@@ -346,7 +346,7 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   };
   add("original", header);
 
-  // Every number of the polynomials, by more than the header's bound.
+  // Changes every number of the polynomials by more than the header's bound.
   const std::size_t start = header.find("static float alpha_factor"), end = header.find("static float held");
   REQUIRE(start < end);
   const std::string code = header.substr(start, end - start);
@@ -404,7 +404,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
 
 TEST_CASE("generated header: stays right under fast-math flags of its user", "[slow]") {
   Headers headers({lowered(committed_fit())});
-  // NaN, infinity, denormals and the sign of 0 are what those flags give up; the rest has to hold.
+  // These flags give up NaN, infinity, denormals and the sign of 0. Everything else must hold.
   headers.keep_normal_texels();
   for (const std::string& compiler : compilers()) headers.check({compiler, "-O3 -ffast-math"});
 }

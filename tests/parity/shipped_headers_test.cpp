@@ -1,7 +1,7 @@
-// Every shipped header, and those of random forms, as a user's compiler builds them, against texremap's pass
-// of the same converter as data: bit for bit, on every instruction set. Many headers a compiler run: a
-// process for each would take minutes. That the converters stay within their bound of the interpreter is
-// tested in lowered_converter_test.
+// This file compares every shipped header, and headers of random forms, as a user's compiler builds them,
+// with texremap's pass of the same converter as data. Results must be equal bit for bit on every instruction
+// set. Each run of the compiler builds many headers, because one run per header would take minutes.
+// lowered_converter_test tests that converters stay within their bound.
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
@@ -33,7 +33,7 @@ using Grey = std::size_t (*)(std::size_t, const float*, const std::array<const f
 using Rgb = std::size_t (*)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
                             const std::array<float*, 3>&);
 
-// As the source of a batch declares it.
+// The source file of a batch declares the same struct.
 struct Entry {
   const char* id;
   Grey grey;
@@ -59,7 +59,7 @@ std::string batch_source(const std::vector<std::string>& ids) {
     entries += "  {\"" + id + "\", rows<remap::" + id + ", 1>, rows<remap::" + id + ", 3>, remap::" + id +
                "::self_test},\n";
   }
-  // Its template takes any header.
+  // This template accepts any header.
   return text +
          "template <class Converter, std::size_t N> std::size_t rows(std::size_t count, const float* width,\n"
          "    const std::array<const float*, N>& specular, float* width_out, const std::array<float*, N>& "
@@ -76,8 +76,8 @@ std::filesystem::path library(const std::filesystem::path& folder, std::size_t b
   return folder / ("batch_" + std::to_string(batch) + ".so");
 }
 
-// Whether a polynomial was left a function of its own, as compilers leave long ones. A loop that calls it is
-// no vector, and four to six times slower.
+// Returns true if a polynomial is still a separate function. Compilers keep long functions separate. A loop
+// that calls one is not vectorised, so it is four to six times slower.
 bool calls_functions_of_texels(const std::filesystem::path& library) {
   const std::string symbols = "nm --demangle " + library.string();
   return std::system(
@@ -85,7 +85,8 @@ bool calls_functions_of_texels(const std::filesystem::path& library) {
          0;
 }
 
-// Compiles headers of `includes` into libraries in `folder`; the entries stay as long as the program.
+// Compiles headers of `includes` into libraries in `folder`. The entries stay valid as long as the program
+// runs.
 std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folder,
                                               const std::filesystem::path& includes,
                                               const std::vector<std::string>& ids) {

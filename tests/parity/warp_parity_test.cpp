@@ -1,5 +1,5 @@
-// Headers of appearance warps against the library, bit for bit.
-// All kinds of coordinates and tables in one file, built as a library that the test loads.
+// This file compares headers of appearance warps with the library, bit for bit. All kinds of coordinates and
+// tables are in one file, built as a library that the test loads.
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kCount = 1000;
 
-// What the library of headers exports, an entry a header.
+// An Entry is what the library exports for each header.
 struct Entry {
   bool (*self_test)();
   std::size_t (*rows)(std::size_t, const std::array<const float*, 7>&, const std::array<float*, 7>&);
@@ -69,13 +69,13 @@ std::vector<WarpMapFit> probed_models() {
         fit.source_model = fit.template_model = "mitsuba/ggx";
         fit.warp = random_warp({dimension, quadratic, copied}, static_cast<unsigned>(31 + fits.size()));
         fit.copy_rms_error = 0.0125;
-        fit.method = {{"source", "a folder\\"}};  // which may not continue the comment
+        fit.method = {{"source", "a folder\\"}};  // the backslash must not continue the comment
         fit.tool_version = "0";
       }
   return fits;
 }
 
-// None where the compiler is not installed.
+// Returns null if the compiler is not installed.
 const Entry* build(const TemporaryFolder& folder, const std::vector<WarpMapFit>& fits,
                    const std::string& compiler, const std::string& flags) {
   if (!has_program(compiler)) return nullptr;
@@ -111,7 +111,7 @@ void check_single_texels(const Entry& entry, const WarpRows& in, const WarpRows&
   CHECK(outside_one == outside);
 }
 
-// `fuses`: products and sums, so that the last bits are not the library's.
+// With `fuses`, products and sums are fused, so that the last bits differ from the library's.
 void check_headers(const std::string& compiler, const std::string& flags, bool fuses) {
   const TemporaryFolder folder;
   const std::vector<WarpMapFit> fits = probed_models();

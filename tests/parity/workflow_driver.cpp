@@ -1,5 +1,6 @@
-// Runs headers of workflow conversions over texels from files. The test writes headers.hpp, which includes
-// them, and entries.inc, a line ENTRY(ID) for each. Says on standard error where a header contradicts itself.
+// This program runs headers of workflow conversions over texels from files. The test writes headers.hpp,
+// which includes them, and entries.inc, with a line ENTRY(ID) for each. It prints to standard error if a
+// header contradicts itself.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -11,7 +12,7 @@ namespace {
 
 using Rows = std::vector<std::vector<float>>;
 
-// The entry points of one header.
+// A Converter has the entry points of one header.
 struct Converter {
   const char* id;
   std::size_t input_rows, output_rows;
@@ -30,7 +31,7 @@ Struct made_of(const Element* elements) {
   return made;
 }
 
-// Rows as planar texels: pointers, then strides of 1.
+// Passes rows as planar texels: pointers, and strides of 1.
 template <class Texels, std::size_t Rows, class Pointer>
 Texels rows_of(const Pointer* rows) {
   Texels made{};
@@ -38,7 +39,8 @@ Texels rows_of(const Pointer* rows) {
   return made;
 }
 
-// Diffuse or base color in texels of three; the rest in texels of four, the width behind the others.
+// Puts diffuse or base color into texels of three elements, and the rest into texels of four, with the width
+// last.
 template <std::size_t Rows, class T, class Texels>
 void place(T* color, T* rest, Texels* texels) {
   T* pointers[Rows];
@@ -91,14 +93,14 @@ std::size_t run(const Converter& converter, const Rows& in, Rows& out, std::size
   return converter.evaluate_batch(count, from.data(), to.data());
 }
 
-// The rows that the header writes, of the first.
+// Compares only the rows that the header writes.
 bool same(const Rows& a, const Rows& b) {
   for (std::size_t r = 0; r < a.size() && r < b.size(); ++r)
     if (std::memcmp(a[r].data(), b[r].data(), a[r].size() * sizeof(float)) != 0) return false;
   return true;
 }
 
-// Rows as texels of three and of four elements, and back.
+// Converts rows to texels of three and of four elements, and back.
 struct Interleaved {
   explicit Interleaved(std::size_t count) : color(3 * count), rest(4 * count) {}
   float& element(std::size_t row, std::size_t i) {
@@ -120,10 +122,10 @@ bool texels_agree(const Converter& converter, const Rows& in, const Rows& all, s
       for (std::size_t i = 0; i < count; ++i) rows[r][i] = out.element(r, i);
     return found == outside && same(rows, all);
   };
-  return gives_all(to) && gives_all(from);  // the second in place
+  return gives_all(to) && gives_all(from);  // the second call works in place
 }
 
-// Whether the entry points agree over `in`, whose result goes to `all`. 0 where they do.
+// Converts `in` to `all`. Returns 0 if the entry points agree.
 int check(const Converter& converter, const Rows& in, Rows& all, std::size_t& outside) {
   const std::size_t count = in[0].size(), in_rows = converter.input_rows, out_rows = converter.output_rows;
   all.assign(out_rows, std::vector<float>(count));
@@ -164,7 +166,7 @@ Rows read(const std::string& path, std::size_t row_count) {
   return rows;
 }
 
-// Rows one after the other, then the number of texels outside.
+// Writes the rows one after the other, then the number of texels outside.
 bool write(const std::string& path, const Rows& rows, std::size_t outside) {
   std::FILE* output = std::fopen(path.c_str(), "wb");
   if (output == nullptr) return false;
@@ -178,7 +180,7 @@ bool write(const std::string& path, const Rows& rows, std::size_t outside) {
 
 }  // namespace
 
-// Usage: workflow_driver FOLDER. Of each header: FOLDER/ID.in to FOLDER/ID.out.
+// Usage: workflow_driver FOLDER. For each header, it converts FOLDER/ID.in to FOLDER/ID.out.
 int main(int argc, char** argv) {
   if (argc != 2) return fail("usage");
   for (const Converter& converter : kConverters) {

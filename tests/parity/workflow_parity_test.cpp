@@ -1,5 +1,5 @@
-// Headers of workflow conversions against the library: bit for bit, by gcc and clang, on random texels and on
-// edges.
+// This file compares headers of workflow conversions with the library: bit for bit, by gcc and clang, on
+// random texels and on edges.
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -23,11 +23,11 @@ namespace {
 
 struct Build {
   std::string compiler, flags;
-  bool fuses = false;  // products and sums: other last bits than the library's
+  bool fuses = false;  // fuses products and sums, so the last bits differ from the library's
 };
 
-// Full campaigns: every compiler with every set of flags. Otherwise, every set of flags by one compiler.
-// Sanitizers watch the emitter, not its headers.
+// In full campaigns, every compiler is tested with every set of flags. Otherwise one compiler is tested with
+// every set of flags. Sanitizers check the emitter, not its headers.
 std::vector<Build> builds() {
   const bool has_both = has_program("g++") && has_program("clang++"), avx2 = has_avx2();
   std::vector<Build> all;
@@ -47,7 +47,7 @@ std::vector<Build> builds() {
   return all;
 }
 
-// What ships, and conventions that nothing shipped has.
+// Returns the fits that ship, and fits with conventions that no shipped fit has.
 std::vector<WorkflowFit> probed_models() {
   std::vector<WorkflowFit> all;
   for (const auto& entry : fs::directory_iterator(fs::path(REMAP_SOURCE_DIR) / "fits"))
@@ -55,7 +55,7 @@ std::vector<WorkflowFit> probed_models() {
       if (const AnyFit fit = load_any_fit(entry.path()); std::holds_alternative<WorkflowFit>(fit))
         all.push_back(std::get<WorkflowFit>(fit));
   REQUIRE(all.size() >= 8);
-  // The network that ships has one hidden layer.
+  // The shipped network has one hidden layer.
   all.push_back({"random_network", workflow_test::gltf(workflow_test::random_network()), {}, {}, "0"});
   WorkflowFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
   mixed.conversion.specular.diffuse = DiffuseConvention::kPlain;
@@ -68,8 +68,8 @@ std::vector<WorkflowFit> probed_models() {
   return all;
 }
 
-// `row_count` rows of texels, a count that no block divides: random ones, some beyond 0 to 1, and edges in
-// all places.
+// Returns `row_count` rows of texels: random texels, some beyond 0 to 1, and edge values in all places. Their
+// number is not divisible by any block.
 std::vector<std::vector<float>> texels(std::size_t row_count) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
@@ -93,7 +93,7 @@ std::vector<std::vector<float>> texels(std::size_t row_count) {
   return rows;
 }
 
-// Rows one after the other, then the number of texels outside.
+// Returns the rows one after the other, then the number of texels outside.
 std::vector<float> by_library(const WorkflowConversion& conversion,
                               const std::vector<std::vector<float>>& rows) {
   const std::size_t count = rows[0].size(), out_rows = conversion.is_to_metallic() ? 5 : 7;
@@ -113,7 +113,7 @@ std::vector<float> floats_of(const fs::path& path) {
   return values;
 }
 
-// NaN equals NaN whatever its bits.
+// All NaN are treated as equal.
 bool same(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -122,8 +122,8 @@ bool same(const std::vector<float>& a, const std::vector<float>& b) {
   return true;
 }
 
-// Networks are compared with the interpreter in double precision: sums of 300 products of floats err by some
-// 1e-6. NaN stands in the same places.
+// Networks are compared with the interpreter in double precision, because sums of 300 products of floats have
+// errors of about 1e-6. NaN must be in the same places.
 bool close(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -133,7 +133,7 @@ bool close(const std::vector<float>& a, const std::vector<float>& b) {
 
 struct Expected {
   WorkflowFit fit;
-  std::vector<float> rows;  // of the library
+  std::vector<float> rows;  // results of the library
 };
 
 // Writes the headers, headers.hpp and their texels to a folder.
@@ -182,7 +182,7 @@ TEST_CASE("workflow headers: the bits of the library from gcc and clang, rows as
   }
 }
 
-// In the test above a header follows others, which may have included what it lacks.
+// In the test above a header follows other headers, which may include what it lacks.
 TEST_CASE("workflow headers: need no other header before them", "[slow]") {
   const TemporaryFolder folder;
   std::string files;

@@ -1,5 +1,5 @@
-// A caller's templates over headers of each kind, compiled with the flags of engines by the test of shipped
-// headers.
+// This file has templates of a caller that use headers of each kind. The test of shipped headers compiles it
+// with the flags of engines.
 #include "cycles_5_ggx_to_mitsuba_ggx.hpp"
 #include "gltf_specgloss_to_gltf.hpp"
 #include "gltf_specgloss_to_gltf_khronos.hpp"
@@ -12,7 +12,7 @@
 
 namespace {
 
-// Specular in red, green and blue, the width in alpha.
+// Specular is in red, green and blue, the width in alpha.
 template <class Converter>
 std::size_t convert_brdf(std::size_t count, float* rgba, float* alpha) {
   static_assert(Converter::Form::width_min < Converter::Form::width_max);

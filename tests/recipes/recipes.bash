@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Follows the recipes of HACKING.md: patches add a kind of fit, a stage, an option, and a model and a renderer to a copy of the sources.
-#   recipes.bash apply              the patches fit the sources
-#   recipes.bash build TEXREMAP     the copy is built, and shows what was added; TEXREMAP is the program without it
+# Follows the recipes of HACKING.md. Patches add a kind of fit, a stage, an option, a model and a renderer to a copy
+# of the sources.
+#
+#   recipes.bash apply              checks that the patches fit the sources
+#   recipes.bash build TEXREMAP     builds the copy and shows what was added. TEXREMAP is the program without it.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 readonly here source=$here/../..
@@ -24,7 +26,7 @@ cmake --preset release -DREMAP_WARNINGS_AS_ERRORS=ON -DREMAP_BUILD_TESTS=OFF -DR
 cmake --build --preset release --target remapc texremap >build.log || { cat build.log; exit 1; }
 PATH=$folder/build/release/bin:$PATH
 
-# says TEXT COMMAND...: the output has the text.
+# says TEXT COMMAND... checks that the output of the command contains the text.
 says() {
   local -r text=$1
   shift

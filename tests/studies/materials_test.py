@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/studies/materials: the numbers of the generator of C++, materials that are physical, and both files of measured materials."""
+"""Tests scripts/studies/materials: the random numbers of C++, materials that are physically possible, and both files
+of measured materials."""
 import csv
 import json
 import runpy
@@ -31,7 +32,8 @@ class Materials(unittest.TestCase):
         self.assertNotIn("Traceback", run.stderr)
 
     def test_generator(self):
-        """The C++ standard states that the 10000th number of mt19937_64 with the seed 5489 is 9981545732273789042."""
+        """Checks the number that the C++ standard states: the 10000th of mt19937_64 with the seed 5489 is
+        9981545732273789042."""
         draw = runpy.run_path(str(MATERIALS))["Draw"](5489)
         self.assertEqual([draw.share() for i in range(10000)][-1], (9981545732273789042 >> 11) * 2.0 ** -53)
 
@@ -51,7 +53,7 @@ class Materials(unittest.TestCase):
         self.assertNotEqual(self.materials("--count", 7, "--seed", 2)[0][0]["diffuse_r"], rows[0]["diffuse_r"])
 
     def measured(self, **changes):
-        """A folder of three lines of Ngan et al., and ten materials of the database."""
+        """Makes a folder with three lines of Ngan et al., and ten materials of the database."""
         (self.folder / "ngan_ward.fit").write_text("# comment\n" + "".join(
             f"m{i} = Aggregate(Lambertian(albedo = [0.{i}, 0.2, 0.3]), NganWard(albedo = [0.4, 0.5, 1.5], x = [1]))\n" for i in (1, 2, 3)))
         data = [{"name": f"one, {i}", "metalness": float(i % 2), "ior": 1.5,
@@ -65,8 +67,8 @@ class Materials(unittest.TestCase):
         self.assertEqual((len(rows), notes), (55, ""))
         ngan = [row for row in rows if row["group"] == "ngan"]
         self.assertEqual({row["material"] for row in ngan}, {"m1", "m2", "m3"})
-        self.assertEqual(float(ngan[0]["f0_b"]), 1.0)  # at most 1
-        # They come again at other alphas.
+        self.assertEqual(float(ngan[0]["f0_b"]), 1.0)  # clamped to 1
+        # The same materials come again with other alphas.
         self.assertEqual(ngan[0]["material"], ngan[3]["material"])
         self.assertEqual([float(row["alpha"]) for row in ngan[:6]], [0.1, 0.2, 0.1, 0.1, 0.2, 0.1])
         mixed = [row for row in rows if " on " in row["material"]]

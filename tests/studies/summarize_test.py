@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""summarize_test.py REMAP_STUDY: scripts/studies/summarize on small studies, against figures that this test computes from the CSV by itself.
+"""summarize_test.py REMAP_STUDY runs scripts/studies/summarize on small studies, and compares it with figures that
+this test computes from the CSV.
 
-The texts are read as people read them. Also: what stands in a folder and what is piped give the same text, the plots are SVG where
-gnuplot is installed, and wrong inputs are refused with exit code 2 and one line.
+The texts are read as people read them. It also tests that a folder and piped input give the same text, that the plots
+are SVG if gnuplot is installed, and that wrong inputs are refused with exit code 2 and one line.
 """
 import csv
 import json
@@ -96,7 +97,8 @@ class Summarize(unittest.TestCase):
         self.assertIn("\nmitsuba/ggx -> mitsuba/beckmann has no fit, so `shipped` is not compared.\n", text)
         self.assertTrue(text.startswith("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.3, specular 0.5, 16 x 16 pixels, "
                                         "sampling noise "), text)
-        self.assertTrue(figures["worse_than_copy"] and "no pair is worse than copying" in text)  # both verdicts are tested
+        # the study must give both verdicts
+        self.assertTrue(figures["worse_than_copy"] and "no pair is worse than copying" in text)
 
     def test_workflows(self):
         rows = table(self.folder / "workflows/workflows.csv")
@@ -108,7 +110,7 @@ class Summarize(unittest.TestCase):
                 head = [row for row in of_method if row["light"] == "headlight"]
                 lit = [row for row in of_method if row["light"] != "headlight"]
                 similar = sorted(float(row["ssim"]) for row in lit)
-                self.assertEqual(len(similar), 18)  # 6 materials, 3 environments: the worst 5 % are one picture
+                self.assertEqual(len(similar), 18)  # with 6 materials and 3 environments, the worst 5 % are one picture
                 entry = figures[convention][method]
                 for name, expected in (("rmse_percent", average(lit, "rmse_percent")), ("ssim", average(lit, "ssim")),
                                        ("worst_ssim", similar[0]), ("headlight_rmse_percent", average(head, "rmse_percent")),
@@ -152,7 +154,7 @@ class Summarize(unittest.TestCase):
         for study in ("workflows", "reach"):
             piped = run(STUDY, study, *self.words[study]).stdout
             self.assertEqual(self.summary(input=piped), self.summary(self.folder / study / f"{study}.csv"))
-        alone = self.folder / "alone.csv"  # without its settings
+        alone = self.folder / "alone.csv"  # a CSV file without its settings
         shutil.copy(self.folder / "environments/environments.csv", alone)
         self.assertIn("specular 0.5, unknown resolution\n", self.summary(alone))
 
@@ -209,7 +211,7 @@ class Summarize(unittest.TestCase):
         self.assertIn("usage: summarize", self.summary("--help"))
 
     def test_part_of_a_table(self):
-        """A table from which somebody took rows: what remains is summarised."""
+        """Tests a table from which somebody removed rows. The remaining rows are summarised."""
         rows = (self.folder / "environments/environments.csv").read_text().split("\n")
         text = self.summary(input="\n".join(row for row in rows if ",copy," not in row))
         self.assertNotIn("\ncopy ", text)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""scripts/studies/translations: three materials a direction against stated bounds, what it refuses, its page in a browser.
+"""Tests scripts/studies/translations: three materials per direction against fixed bounds, what it refuses, and its
+page in a browser.
 
-It runs with the Python of the renderer (scripts/renderers materialx-1.39.5), or with this one where it has MaterialX.
+It runs with the Python of the renderer (scripts/renderers materialx-1.39.5), or with this Python if it has MaterialX.
 """
 import importlib.util
 import json
@@ -20,8 +21,9 @@ OWN = Path(os.environ.get("REMAP_RENDERERS") or DATA / "remap/renderers") / "mat
 PYTHON = next((str(one) for one in (OWN,) if one.exists()), sys.executable)
 MODULE = Path(os.environ.get("REMAP_TRANSLATIONS") or ROOT / "generated/materials/materials.py")
 GRAPHS = MODULE.parents[1] / "materialx/remap_translation.mtlx"
-SEED = 5  # one that development may use
-# The mean error of three materials: about 1.5 times what the translations had when the bound was set.
+SEED = 5  # a seed that development may use
+# These bound the mean error of three materials. They are about 1.5 times the errors that the translations had when
+# the bound was set.
 BOUNDS = {"UsdPreviewSurface:open_pbr_surface": 0.05, "principled:open_pbr_surface": 0.1, "standard_surface:open_pbr_surface": 0.03,
           "gltf_pbr:open_pbr_surface": 0.02, "open_pbr_surface:UsdPreviewSurface": 0.35,
           "open_pbr_surface:UsdPreviewSurface_specular": 0.18, "open_pbr_surface:gltf_pbr": 0.12,
@@ -71,7 +73,7 @@ class Translations(unittest.TestCase):
                 self.assertLess(row["ours"]["mean"], row["in use"]["mean"])
 
     def test_graphs_are_the_module(self):
-        """The node graphs, evaluated in shaders, give the errors of the Python module."""
+        """Checks that the node graphs, evaluated in shaders, give the errors of the Python module."""
         if not MODULE.exists() or not GRAPHS.exists():
             self.skipTest(f"{GRAPHS} or {MODULE} does not exist")
         found = []
@@ -108,7 +110,8 @@ class Translations(unittest.TestCase):
                      "--directions", "gltf_pbr:open_pbr_surface")
 
     def test_files_of_pictures(self):
-        """A PNG file has the pixels that were written: its filters are taken off here. The pictures of the page are small."""
+        """Checks that a PNG file has the pixels that were written, by undoing its filters. The pictures of the page
+        are small."""
         code = ("import sys; sys.path[:0] = ['compiler/adapters', 'scripts/studies']\n"
                 "import numpy\nfrom whole_materials import site\n"
                 "pixels = numpy.random.default_rng(1).integers(0, 256, (9, 7, 4)).astype(numpy.uint8)\n"
@@ -139,7 +142,8 @@ class Translations(unittest.TestCase):
             self.assertLess(picture.stat().st_size, 60_000, picture)
 
     def test_changed_graphs(self):
-        """The lists of nodes on the pages make valid graphs, which the judge takes in place of the official ones."""
+        """Checks that the lists of nodes on the pages make valid graphs, which the judge accepts instead of the
+        official ones."""
         got = run("offers", "--graphs", self.folder / "changed")
         self.assertEqual(got.returncode, 0, got.stderr)
         files = sorted((self.folder / "changed").iterdir())
@@ -153,7 +157,7 @@ class Translations(unittest.TestCase):
 
     @unittest.skipUnless(CHROMIUM, "Chromium is not installed")
     def test_page(self):
-        """Sorts by a click and by the keyboard's way to it, and filters."""
+        """Checks that a click and the keyboard sort, and that the filter works."""
         code = ("import sys; sys.path[:0] = ['compiler/adapters', 'scripts/studies']\n"
                 "from whole_materials import site\n"
                 "def row(name, kind, ours): return {'kind': kind, 'name': name, 'from': 'OpenPBR', 'to': name, 'in_use': 'names copied',"
@@ -173,7 +177,7 @@ found.push(shown(), document.querySelector("#mean").textContent);
 document.body.textContent = found.join("|");
 }</script></body>"""
         path = self.folder / "index.html"
-        path.write_text(page.stdout.replace("</body>", script))  # it leaves nothing on the page but what it found
+        path.write_text(page.stdout.replace("</body>", script))  # removes everything from the page except what it found
         words = ["--headless", "--disable-gpu", "--dump-dom", *(["--no-sandbox"] if os.getuid() == 0 else []), path.as_uri()]
         got = subprocess.run([CHROMIUM, *words], capture_output=True, text=True, timeout=60)
         self.assertIn("BAC|ABC|CBA|ACB|true|1|CB|2 rows, mean error: in use 0.500, ours 0.150",

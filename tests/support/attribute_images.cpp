@@ -33,7 +33,7 @@ OIIO::ImageSpec& set(OIIO::ImageSpec& spec, std::string_view attributes) {
   return spec;
 }
 
-// These are attributes that a picture may have in any format that allows them; Exif; IPTC.
+// These are attributes that a picture may have in any format that allows them, including Exif and IPTC.
 constexpr const char* kCommon =
     "DateTime=2021:03:04 05:06:07; Orientation:int=6; XResolution:float=300; YResolution:float=150; "
     "ResolutionUnit=in; PixelAspectRatio:float=2; wrapmodes=periodic,black; fovcot:float=1.25; "
@@ -68,8 +68,8 @@ void add_profile(OIIO::ImageSpec& spec) {
   put(36, "acsp");
   bytes[131] = 1;  // tags
   put(132, "cprt");
-  bytes[139] = 144;  // where its value begins
-  bytes[143] = 16;   // and how long it is
+  bytes[139] = 144;  // place of its value
+  bytes[143] = 16;   // length of its value
   put(144, "text");
   put(152, "nobody");
   // Set D50, the light that the connection space must have.

@@ -11,10 +11,10 @@ namespace remap {
 
 struct AttributeImage {
   std::string title;                   // the variant, for messages
-  std::string extension;               // of the file
-  std::vector<OIIO::ImageSpec> parts;  // one, or several of a file of several parts
+  std::string extension;               // extension of the file
+  std::vector<OIIO::ImageSpec> parts;  // one part, or several
   bool has_levels = false;             // mip levels below the only part
-  bool is_lossless = true;             // every bit that is written comes back
+  bool is_lossless = true;             // true if every written bit is read back
 };
 
 std::vector<AttributeImage> exr_storage_images();    // pixel types, compressions, tiles, mip levels

@@ -1,5 +1,5 @@
-// This file serves tests that train or search. It measures their time, and detects slow builds, which do
-// less.
+// This file serves tests that train or search. It measures the time of these tests. It also detects slow
+// builds, in which they do less.
 #pragma once
 
 #include <ctime>

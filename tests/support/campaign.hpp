@@ -14,8 +14,8 @@ inline bool is_full_campaign() {
   return length != nullptr && std::string(length) == "full";
 }
 
-// Returns all `full` cases in a full campaign. Otherwise, and under a sanitizer, it returns the first tenth.
-// A test that uses either function has the tag [campaign].
+// Returns `full` in a full campaign, and otherwise a tenth of it. Under a sanitizer, it always returns a
+// tenth. A test that uses either function has the tag [campaign].
 inline int campaign_length(int full) { return is_full_campaign() && !kSlowBuild ? full : full / 10; }
 
 }  // namespace remap

@@ -23,11 +23,11 @@ namespace {
 
 const char* program_path = nullptr;  // null if there is no program
 int (*program_main)(int argc, char** argv) = nullptr;
-int connection = -1;  // to the loaded process
+int connection = -1;  // socket to the loaded process
 std::mutex one_request;
 
 struct Ended {
-  pid_t process = 0;  // 0 while it runs
+  pid_t process = 0;  // 0 as long as it runs
   int status = 0;
   rusage usage{};
 };

@@ -1,6 +1,6 @@
-// This file runs the program under test as a part of the test program. Its processes are copies of one that
-// has loaded all libraries and run nothing. Loading takes a quarter of a second, and more under sanitizers.
-// Tests that run the program in other ways (scripts, farms, packages) start its file.
+// This file runs the program under test as a part of the test program. Each of its processes is a copy of one
+// process, which has loaded all libraries but has not run the program yet. Loading takes a quarter of a
+// second, and more under sanitizers. Other tests (scripts, farms, packages) start the file of the program.
 #pragma once
 
 #include <string>

@@ -5,7 +5,8 @@
 
 namespace remap {
 
-// Returns a repeatable value in [0, 1) for a texel and a channel.
+// Returns a repeatable value in [0, 1) for a texel and a channel, by the finaliser of SplitMix64 (Steele, Lea
+// and Flood, 2014).
 inline float noise(int x, int y, int channel) {
   std::uint64_t state = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u +
                         static_cast<std::uint64_t>(y) * 0xd1b54a32d192ed03u +

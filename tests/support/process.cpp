@@ -29,8 +29,8 @@ std::string content(const fs::path& path) {
 // Runs between fork and exec, so it makes only calls that are safe there.
 [[noreturn]] void become(char* const* arguments, const ProcessStart& start, bool keeps_permissions) {
   enter(start);
-  // exec does not restore the rights that root drops here. For other users the call fails, and they have no
-  // such rights.
+  // exec does not restore the rights that root drops here. Other users have no such rights, and the call
+  // fails for them.
   if (keeps_permissions)
     for (const int right : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
   ::execv(arguments[0], arguments);

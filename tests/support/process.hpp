@@ -16,7 +16,7 @@ namespace remap {
 
 struct ProcessResult {
   int exit_code = -1;  // -1 if a signal ended the process
-  int signal = 0;      // that signal
+  int signal = 0;      // the signal that ended it
   std::string output;  // standard output
   std::string errors;  // standard error
   long peak_kilobytes = 0;
@@ -25,7 +25,8 @@ struct ProcessResult {
   std::string last_error() const;
 };
 
-// A Words holds the words of a command: a list of them, or a text with blanks between them and no quotes.
+// A Words holds the words of a command: a list of words, or a text with spaces between them and without
+// quotes.
 struct Words : std::vector<std::string> {
   using vector::vector;
   Words(const std::vector<std::string>& words) : vector(words) {}
@@ -37,11 +38,11 @@ struct Words : std::vector<std::string> {
 
 struct ProcessLimits {
   std::filesystem::path folder;      // the working folder, if it differs from the test's
-  std::optional<rlim_t> file_bytes;  // as by `ulimit -f`: writing beyond fails
-  bool keeps_permissions = false;    // file modes apply to it, even if the test runs as root
+  std::optional<rlim_t> file_bytes;  // limit as by `ulimit -f`: writing more fails
+  bool keeps_permissions = false;  // if true, permissions of files apply to it, even if the test runs as root
 };
 
-// A Process runs beside the test. The destructor kills it if it was not waited for.
+// A Process runs at the same time as the test. The destructor kills it if nobody has waited for it.
 class Process {
  public:
   // `arguments` begins with the path of the program. Throws std::runtime_error if it cannot be started.
@@ -58,21 +59,21 @@ class Process {
 
  private:
   TemporaryFolder folder_;
-  bool is_copy_;  // of a program that is loaded (support/loaded_program.hpp)
+  bool is_copy_;  // true for a copy of a loaded program (support/loaded_program.hpp)
   pid_t pid_ = -1;
   std::optional<ProcessResult> result_;
   bool collect_if_ended();
   void collect(int status, long peak_kilobytes);
 };
 
-// Starts it and waits for it.
+// Starts a process and waits for it.
 ProcessResult run(const Words& arguments, const ProcessLimits& limits = {});
 
 // A CommandFolder is a separate folder in which programs run.
 class CommandFolder {
  public:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  std::string content(const std::string& name) const;  // of a file
+  std::string content(const std::string& name) const;  // content of a file
   Process start(const Words& words, ProcessLimits limits = {}) const;
   ProcessResult run(const Words& words, const ProcessLimits& limits = {}) const {
     return start(words, limits).wait();

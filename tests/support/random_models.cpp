@@ -88,7 +88,7 @@ Parametric random_parametric(Random* random) {
     return form;
   }
   for (int power = 0; power <= 3; ++power)
-    for (double share = 0.5; random->chance(share); share *= 0.3)  // terms of one power add up
+    for (double share = 0.5; random->chance(share); share *= 0.3)  // terms with equal powers are added
       form.specular.push_back({power, random_curve(random, wild_specular)});
   if (form.specular.empty()) form.specular.push_back({2, random_curve(random, wild_specular)});
   return form;
@@ -156,7 +156,7 @@ Network random_network(Random* random, const Domain& domain, bool both, Activati
 
 MappingKind random_regressed(const std::string& kind, Random* random, const Domain& domain) {
   if (kind == "parametric") return random_parametric(random);
-  const bool both = random->chance(0.3);  // whether target alpha depends on specular
+  const bool both = random->chance(0.3);  // true if target alpha depends on specular
   if (kind == "svr") {
     KernelExpansion alpha = random_expansion(random, domain, both);
     return Svr{alpha, random_expansion(random, domain, random->chance(0.9))};
@@ -198,7 +198,7 @@ std::optional<Fit> random_form_fit(std::uint64_t seed) {
   fit.domain = {{random.between(0.01, 0.21), 1.0}, {0.0, random.magnitude(0.3, 3.0)}};
   CompactForm form;
   form.pole = static_cast<float>(random.magnitude(0.03, 3.0));
-  form.alpha = random_factor(&random, seed % 4 == 3);  // long: by loops instead of padded rows
+  form.alpha = random_factor(&random, seed % 4 == 3);  // a long form uses loops instead of padded rows
   form.specular = random_factor(&random, seed % 4 == 3);
   const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
   if (seed % 3 != 0) form.specular_limit = number(0.2, 1.2);

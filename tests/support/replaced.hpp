@@ -1,4 +1,4 @@
-// This file makes files that are wrong in one place.
+// This file makes files that have one wrong place.
 #pragma once
 
 #include <string>

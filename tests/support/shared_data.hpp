@@ -1,4 +1,4 @@
-// This file finds real data beside the repository, if it is there.
+// This file finds real data in a folder next to the repository, if it exists.
 #pragma once
 
 #include <cstdlib>
@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// Returns the path of `name` in the folder of shared data: REMAP_SHARED_DATA, or ../shared/data beside the
-// source tree. If it is missing, returns an empty path and the test counts as skipped.
+// Returns the path of `name` in the folder of shared data: REMAP_SHARED_DATA, or ../shared/data next to the
+// source tree. If it is missing, it returns an empty path, and the test is reported as skipped.
 inline std::filesystem::path shared_data(const std::string& name) {
   may_skip();
   const char* given = std::getenv("REMAP_SHARED_DATA");

@@ -1,4 +1,4 @@
-// This file serves tests that need something which not every machine has.
+// This file serves tests that need something which some machines lack.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 namespace remap {
 
 // ctest runs the cases of a file as one test. But it runs a case that may be skipped separately, so that the
-// skip counts. A case that calls any of these functions must have the tag [needs] or [slow]; otherwise it
-// fails.
+// skip is reported. A case that calls any of these functions must have the tag [needs] or [slow]. Otherwise
+// it fails.
 void may_skip();
 
 // Records that the running test lacks `what`, one word as in REMAP_REQUIRE: a program, a library's data, a
-// right. The caller returns, or continues with the checks that need nothing more. A test that otherwise
-// passes counts as skipped and prints `skipped: WHAT: REASON`. A test that fails counts as failed. If
-// REMAP_REQUIRE, a list of names with commas, holds `what`, the test fails instead.
+// right. The caller returns, or continues with the checks that need nothing more. If the test passes
+// otherwise, it is reported as skipped and prints `skipped: WHAT: REASON`. If REMAP_REQUIRE, a list of names
+// with commas, contains `what`, the test fails instead.
 void skip(const std::string& what, const std::string& reason);
 
 // Returns true if `program` can be started. Otherwise skips.

@@ -23,7 +23,6 @@ void divide(TestImage& image) {
 
 }  // namespace
 
-// This is the finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
 OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>& channels,
                           OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), type);

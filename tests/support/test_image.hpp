@@ -16,8 +16,8 @@ namespace remap {
 
 struct TestImage {
   OIIO::ImageSpec spec;
-  std::vector<float> values;         // interleaved, integers divided by their largest
-  std::vector<unsigned char> bytes;  // as stored
+  std::vector<float> values;         // interleaved; integers are divided by their largest value
+  std::vector<unsigned char> bytes;  // bytes as stored
 
   float at(int x, int y, int channel) const {
     return values[static_cast<std::size_t>((y * spec.width + x) * spec.nchannels + channel)];

@@ -42,8 +42,8 @@ inline WarpRows random_rows(std::size_t count) {
   return rows;
 }
 
-// Returns random rows with NaN, infinity, negative and the least numbers in each channel of some texels. Some
-// texels are such a number in every channel.
+// Returns random rows. In some texels, channels are NaN, infinite, negative or the least numbers. In some of
+// these texels, all channels are.
 inline WarpRows odd_rows(std::size_t count) {
   WarpRows rows = random_rows(count);
   const float nan = std::numeric_limits<float>::quiet_NaN(),

@@ -27,8 +27,8 @@ struct WarpSet {
 WarpSet leaf_set(std::size_t size);
 WarpSet rust_set(std::size_t size);
 
-// Draws thin straight lines in each region, clipped to the region: three, or more until they cover 80 texels.
-// They differ between the materials and the seeds.
+// Draws thin straight lines in each region, clipped to the region. There are three lines, or more until they
+// cover 80 texels. They differ between the materials and the seeds.
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed);
 
 }  // namespace remap

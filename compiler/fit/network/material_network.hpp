@@ -21,14 +21,14 @@ struct MaterialNetworkOptions : TrainingOptions {
     starts = 1;
   }
   std::string id;                  // if empty, `<specular model>_to_<metallic model>`
-  double held_out_fraction = 0.1;  // share of the rows for the errors of the fit
+  double held_out_fraction = 0.1;  // fraction of the rows that only measure the errors of the fit
 };
 
 // Trains the inverse of a table of `remapc sample` from a metallic model (columns base_color_r1, ...,
 // metallic1) to a specular model (f0_r2, ..., diffuse_r2, ...). `bytes` is the file of the table. Only rows
-// of status ok count. Diffuse is plain. The roughness conventions come from the table's models. Throws kInput
-// for missing columns, without rows, and if rows deviate from equation (2) by more than 1e-3 (RMS). Throws
-// kUsage for an invalid id or share, and the errors of train_network().
+// of status ok are used. Diffuse is plain. The roughness conventions come from the table's models. Throws
+// kInput for missing columns, for a table without rows, and if rows deviate from equation (2) by more than
+// 1e-3 (RMS). Throws kUsage for an invalid id or fraction. Also throws the errors of train_network().
 WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
                                  const MaterialNetworkOptions& options, const FitProgress& progress = {});
 

@@ -52,9 +52,9 @@ class NetworkBatch {
 
  private:
   NetworkShape shape_;
-  std::vector<std::size_t> offsets_;     // of each layer in a parameter vector
+  std::vector<std::size_t> offsets_;     // offset of each layer in a parameter vector
   std::vector<Eigen::MatrixXd> values_;  // inputs, activations of each hidden layer, outputs
-  std::vector<Eigen::MatrixXd> slopes_;  // derivative of the activation, of each hidden layer
+  std::vector<Eigen::MatrixXd> slopes_;  // derivatives of the activation function of each hidden layer
 
   Eigen::Index size(std::size_t layer) const { return static_cast<Eigen::Index>(shape_.sizes[layer]); }
   Eigen::Map<const RowMajor> weights(const double* parameters, std::size_t layer) const;

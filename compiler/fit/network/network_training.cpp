@@ -26,15 +26,15 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLevenbergParameters = 600;
-// Limits the time of a Levenberg-Marquardt iteration, which is proportional to residuals times parameters
-// squared, to about 0.05 s. Small networks need most of it for the Jacobian, which is proportional to the
+// Limits a Levenberg-Marquardt iteration to about 0.05 s. Its time is proportional to residuals times
+// parameters squared. Small networks need most of it for the Jacobian, whose time is proportional to the
 // residuals.
 constexpr double kLevenbergWork = 1e8;
 constexpr double kFewestResiduals = 1500.0, kMostResiduals = 3000.0;
 constexpr int kLevenbergIterations = 300;
 constexpr int kLevenbergPatience = 80;
 constexpr int kRefitIterations = 60;
-constexpr double kStartsShare = 0.95;  // fraction of the progress; the rest is the refit
+constexpr double kStartsShare = 0.95;  // part of the progress bar; the refit gets the rest
 // This number of multiplications determines the number of Adam passes, within bounds.
 constexpr double kAdamWork = 1e10;
 constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;

@@ -36,10 +36,11 @@ struct TrainingOptions {
 struct TrainedNetwork {
   Network network;
   double training_rms = 0.0;    // over the training rows, in normalised units
-  double validation_rms = 0.0;  // of the best start before its refit to all rows, in normalised units
+  double validation_rms = 0.0;  // of the best start, before it was refitted to all rows; in normalised units
   std::size_t best_start = 0;
-  std::size_t rows = 0;  // used, including validation rows; may be fewer than given
-  std::string method;    // one line: layers, optimisers, starts, iterations, rows
+  // number of used rows, including validation rows; may be less than the number of given rows
+  std::size_t rows = 0;
+  std::string method;  // one line: layers, optimisers, starts, iterations, rows
 };
 
 // Minimizes squared errors of outputs with mean 0 and variance 1, for inputs in [-1, 1] over the rows.

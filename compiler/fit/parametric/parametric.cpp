@@ -22,7 +22,7 @@ double grid_value(const Range& range, int i, int steps) {
   return i == steps ? range.max : range.min + (range.max - range.min) * i / steps;
 }
 
-// A Least is the least value of a quantity that must be positive, with its place.
+// A Least holds the smallest value of a quantity that must be positive, and where it occurs.
 struct Least {
   double value = 1e300;
   double alpha = 0.0;

@@ -21,7 +21,7 @@ Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domai
 Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& domain,
                                const std::string& form);
 
-// The following parts serve code that chooses or refits a form; fit_specular_terms() is another.
+// Code that chooses or refits a form uses the following functions, and fit_specular_terms().
 
 // Returns the least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
 std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);

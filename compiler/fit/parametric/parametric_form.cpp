@@ -41,7 +41,7 @@ std::span<const SpecularForm> specular_forms() { return kSpecularForms; }
 ParametricForm find_form(const std::string& name) {
   if (name == "paper") return {&kRoughnessForms.front(), &kSpecularForms.front()};
   if (name == "paper+pole") return {&kRoughnessForms.front(), &kSpecularForms.back()};
-  throw usage_error("unknown form '" + name + "' (choose paper or paper+pole)");
+  throw usage_error("--form: unknown form '" + name + "' (choose paper or paper+pole)");
 }
 
 }  // namespace remap

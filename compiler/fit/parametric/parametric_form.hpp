@@ -25,7 +25,8 @@ struct SpecularForm {
   std::string_view summary;
   std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
   bool pole = false;        // true if the factor of specular1 has the term pole / alpha1
-  // Returns true if the term has the same power as the term before it. The earlier one holds both constants.
+  // Returns true if the previous term has the same power as this one. The previous term then holds both
+  // constants.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };

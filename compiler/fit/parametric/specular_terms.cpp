@@ -24,8 +24,8 @@ constexpr std::size_t kFewestAlphas = 6;
 // The search starts at these rates, from straight lines to the narrowest bump that a table resolves.
 constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
                                                 8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
-// Limits the rates: at the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay).
-// A faster one would only follow the rows of the smallest alpha.
+// At the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay). A faster
+// exponential would only follow the rows of the smallest alpha.
 constexpr double kLargestDecay = 5.0;
 // This is the cost in rms error of a contribution of 1 at the largest alpha. It is negligible compared with
 // the error of a fit, but prevents curves of magnitude 1000 that cancel each other.
@@ -33,8 +33,9 @@ constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
 constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
 
-// A Samples combines the rows of one alpha. With f the values of the curves at alpha, |weights f - target|^2
-// is their squared error up to a constant. It is exact, by a QR decomposition of the powers of specular.
+// A Samples combines the rows of one alpha. If f holds the values of the curves at alpha, |weights f -
+// target|^2 is their squared error up to a constant. A QR decomposition of the powers of specular makes this
+// exact.
 struct Samples {
   VectorXd alpha;
   MatrixXd weights;  // one column per term
@@ -244,8 +245,8 @@ Rates polish(const VariableProjection& projection, Rates rates) {
   return rates;
 }
 
-// Searches rates on the grid term by term, the slope first. The best few pairs of one term are combined with
-// every pair of the next.
+// Searches rates on the grid term by term. The slope comes first. The best few pairs of one term are combined
+// with every pair of the next term.
 std::vector<Rates> search_starts(const VariableProjection& projection) {
   std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
   std::vector<std::size_t> order = {projection.slope_term()};
@@ -306,7 +307,7 @@ void require_samples(std::size_t alpha_count, std::size_t specular_count, const 
 std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
                                              const std::vector<SpecularTerm>* near) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
-  std::set<double> alphas, speculars;  // from rows where specular counts
+  std::set<double> alphas, speculars;  // from rows whose specular is not negligible
   for (const TableRow& row : rows) {
     by_alpha[row.alpha1].push_back(&row);
     if (!(row.specular1 > 0.0)) continue;

@@ -17,8 +17,9 @@ namespace remap {
 namespace {
 
 constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (Solver::Solve)
-constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; the default of libsvm
-constexpr double kToleranceOfEpsilon = 3.0;   // a larger value costs accuracy, a smaller one only time
+constexpr double kLargestTolerance = 1e-3;    // tolerance of the optimality conditions, the default of libsvm
+// a larger factor costs accuracy, a smaller factor only costs time
+constexpr double kToleranceOfEpsilon = 3.0;
 
 // This is the number of iterations, parsed from libsvm's messages. libsvm does not report it in another way,
 // and its print function is shared by all threads.

@@ -87,7 +87,7 @@ KernelExpansion train(const std::string& name, const SvrSamples& samples, bool i
                       number_text(parameters.gamma) + " (use a smaller C)");
 }
 
-// Searches `used`, the hyper-parameters, if they are not given.
+// Searches the hyper-parameters into `used` if they are not given.
 KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParameters>* used,
                            const SvrOptions& options, const FitProgress& progress,
                            std::map<std::string, std::string>& method) {
@@ -155,7 +155,8 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   regression.method["solver"] = solver_name() + ", epsilon-SVR, Gaussian kernel";
   regression.method["seed"] = std::to_string(options.seed);
   RisingProgress rising(progress);
-  const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;  // the rest is for specular
+  // part of the progress bar; specular gets the rest
+  const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;
   Svr svr;
   SvrOptions used = options;
   svr.alpha = fit_output(alpha, &used.alpha, options, rising.part(0.0, share_of_alpha), regression.method);

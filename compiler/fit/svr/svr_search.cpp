@@ -18,10 +18,12 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
-constexpr std::size_t kFirstFolds = 2;  // after which hopeless candidates are dropped
-constexpr double kHopeless = 1.5;       // error relative to the best on the same folds
-constexpr double kProgress = 0.99;      // a relative error up to this is an improvement
-constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which takes three times as long
+constexpr std::size_t kFirstFolds = 2;  // hopeless candidates are dropped after these
+// a candidate is hopeless if its error is more than this many times the best error
+constexpr double kHopeless = 1.5;
+constexpr double kProgress = 0.99;  // an error of at most this times the old one is an improvement
+// This is kProgress for a tube a third as wide, whose training takes three times as long.
+constexpr double kWorthTime = 0.9;
 constexpr std::size_t kNeverJudges = kFolds;
 
 // More samples change the choice little, as measured on the published table. The time of a training grows
@@ -70,7 +72,7 @@ SvrHyperParameters parameters_at(const Point& point) {
 
 struct FoldedSamples {
   SvrSamples samples;
-  std::vector<std::size_t> fold;  // fold in which each sample is held out, or kNeverJudges
+  std::vector<std::size_t> fold;  // fold in which each sample is held out; kNeverJudges: it is never held out
 };
 
 FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
@@ -237,7 +239,8 @@ std::vector<Point> grid(std::size_t input_count, int epsilon) {
   return points;
 }
 
-// Returns the points one step away along each axis, and along the diagonal on which C compensates gamma.
+// Returns the points one step away along each axis, and along the diagonal on which C and gamma compensate
+// each other.
 std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
   std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
                               {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};

@@ -14,8 +14,8 @@ struct SvrChoice {
   SvrHyperParameters parameters;
   double rms = 0.0;                 // error of cross-validation, in normalised units
   std::size_t fold_count = 0;       // 0: too few samples; `parameters` are the defaults
-  std::size_t candidate_count = 0;  // tried, including unfinished ones
-  std::size_t sample_count = 0;     // used by the last stage
+  std::size_t candidate_count = 0;  // number of candidates, including unfinished ones
+  std::size_t sample_count = 0;     // number of samples that the last stage used
 };
 
 // Searches `samples`, sorted by alpha, then specular, without duplicate inputs. It does not search fewer than

@@ -42,7 +42,7 @@ class MemorySource final : public ByteSource {
   std::string_view bytes_;
 };
 
-// An AssetFiles opens files beside an asset.
+// An AssetFiles opens files that belong to an asset.
 class AssetFiles {
  public:
   virtual ~AssetFiles() = default;
@@ -51,12 +51,12 @@ class AssetFiles {
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
 };
 
-// An AssetResources opens files beside an asset, and gives what its images need.
+// An AssetResources opens files that belong to an asset, and provides what its images need.
 class AssetResources : public AssetFiles {
  public:
   virtual const ImageCodec& codec() const = 0;
-  // Returns the image at a size that is at least its own in both directions. It is bilinear, in linear light,
-  // with all channels except alpha in sRGB.
+  // Returns the image enlarged to a size that is at least its own in both directions. It interpolates
+  // bilinearly in linear light. All channels except alpha are in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
   // Returns the prefix of the names of new images. It is set if another asset may add the same name.
   virtual std::string image_prefix() const { return ""; }
@@ -72,9 +72,9 @@ struct AssetOptions {
   bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of only core
   double prior = kCleanPrior;  // prior of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
-  bool enlarges = false;  // enlarges images of a material that are smaller than another one
+  bool enlarges = false;  // true if images of a material are enlarged to the size of its largest image
   AssetTarget target = AssetTarget::kMetalRough;
-  // Folds KHR_materials_specular and _ior into core, too. It needs kMetalRough, and excludes `extensions`.
+  // Folds KHR_materials_specular and _ior into core, too. This needs kMetalRough, and excludes `extensions`.
   bool folds_specular = false;
   // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;
@@ -83,7 +83,7 @@ struct AssetOptions {
   // This is the quality, 1 to 100, of new color images: JPEG, unless they have alpha or come from a color map
   // that is not JPEG. If it is missing, new images are PNG.
   std::optional<int> jpeg_quality = std::nullopt;
-  // This is the level of new PNG images. If it is missing, the usual level applies.
+  // This is the compression level of new PNG images. If it is missing, the usual level applies.
   std::optional<int> png_level = std::nullopt;
 };
 
@@ -124,7 +124,7 @@ struct AssetPiece {
   std::uint64_t begin = 0, end = 0;
 };
 
-// A NewResource is a new file beside the result.
+// A NewResource is a new file next to the result.
 struct NewResource {
   std::string path;  // relative path
   std::string bytes;
@@ -132,14 +132,16 @@ struct NewResource {
 
 // An AssetResource is a URI of a file outside the asset.
 struct AssetResource {
-  std::string where;  // `/images/2/uri`; only for the first that leads up or is absolute, to save time
-  std::string path;   // relative to the asset, without percent signs; for kRemote the address
+  // such as `/images/2/uri`; to save time, only set for the first URI that leads out of the folder or is
+  // absolute
+  std::string where;
+  std::string path;  // relative to the asset, without percent signs; for kRemote the address
   UriKind kind = UriKind::kFile;
 };
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
-  std::vector<std::string> warnings;     // about the file
+  std::vector<std::string> warnings;     // warnings about the file
   std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
   std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
   bool changed = false;                  // true if a material was converted

@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 7> kNewImageSuffixes = {
 // Returns a path as a URI, with percent_encoded() between its slashes.
 std::string uri_of_path(const std::string& path);
 
-// Returns the name of a new file beside `model`, without number and extension. For `a/wood.jpg`, the prefix
+// Returns the name of a new file next to `model`, without number and extension. For `a/wood.jpg`, the prefix
 // `chair_` and the suffix `_baseColor` it is `a/chair_wood_baseColor`. The suffix is one of kNewImageSuffixes
 // or empty. Control characters and line breaks become `_`.
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix);

@@ -41,7 +41,8 @@ std::size_t MtlDocument::ending_length(std::size_t at) const {
   return text_[at] == '\n' ? 1 : 0;
 }
 
-// Ends a comment at its first line ending, because paths of Windows in it may end in a backslash.
+// Ends a comment at its first line ending. A backslash before it does not continue the comment, because it
+// may belong to a path of Windows.
 std::size_t MtlDocument::end_of_line(std::size_t begin) const {
   std::size_t at = begin;
   while (at < text_.size() && is_space(at)) at += space_length(at);

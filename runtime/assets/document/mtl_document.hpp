@@ -1,5 +1,5 @@
-// This file finds the statements of a Wavefront MTL file and their materials as places in its text. An editor
-// can then replace some bytes and move no others. Unknown lines stay unchanged.
+// This file finds the statements and materials of a Wavefront MTL file, as places in its text. An editor can
+// then replace some bytes without moving others. Unknown lines stay unchanged.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,11 @@ namespace remap {
 // Limits the text, and the number of lines with a statement; each such line takes 56 bytes of memory.
 inline constexpr std::size_t kLongestMtl = std::size_t{1} << 28, kMostMtlStatements = std::size_t{1} << 23;
 
-// An MtlStatement is the places of a statement in the text.
+// An MtlStatement holds the places of a statement in the text.
 struct MtlStatement {
-  TextSpan line;       // from the indentation to before the line ending; a backslash joins lines
-  TextSpan ending;     // of the line; empty at the end of the text
+  // begins at the indentation and ends before the line ending; includes all lines that backslashes join
+  TextSpan line;
+  TextSpan ending;     // line ending of `line`; empty at the end of the text
   TextSpan word;       // `Kd`
   TextSpan arguments;  // without the white space around them; may be empty
 };

@@ -54,9 +54,8 @@ double blender_scale(MtlMaker maker) { return maker == MtlMaker::kBlender28 ? 90
 std::string maker_warning(MtlMaker maker) {
   const auto blender = [maker] {
     return "Blender wrote it: roughness is 1 - sqrt(Ns / " + number_text(blender_scale(maker)) +
-           "), metallic is Ka if illum is 3, and Kd beside map_Kd is not used (--mtl-from text reads it by "
-           "the "
-           "text of the format)";
+           "), metallic is Ka if illum is 3, and Kd is not used if there is map_Kd (--mtl-from text reads "
+           "the file by the specification)";
   };
   switch (maker) {
     case MtlMaker::kText:

@@ -21,7 +21,7 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text
                                                          {MtlMaker::kNvdiffrec, "nvdiffrec"}}};
 
 // Returns the maker that the first comments name, or whose special statements occur, otherwise kText. Blender
-// 2.7 wrote exponents of its own Blinn and Phong shaders, which the specification describes.
+// 2.7 is kText: it wrote the exponents of its Blinn and Phong shaders, as the specification describes them.
 MtlMaker maker_of(const MtlDocument& document);
 
 // Returns the warning about reading a file of this maker, `Blender wrote it: ...`, or nothing for kText.

@@ -54,7 +54,8 @@ std::string TextEdits::colon_of(SpanValue object) const {
   return std::string(json_.text().substr(begin, end - begin));
 }
 
-// Removes each child with the separator after it; after the first kept child, with the separator before it.
+// Removes each child with its separator. This is the separator after it, or the one before it if an earlier
+// child stays.
 void TextEdits::add_splices(SpanValue container, const Changes& changes,
                             std::vector<TextSplice>& splices) const {
   const std::vector<SpanValue> children = container.children();

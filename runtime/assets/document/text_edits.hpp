@@ -33,7 +33,8 @@ class TextEdits {
 
   // Returns the bytes that are replaced, in order. Insertions replace no bytes.
   std::vector<TextSpan> touched() const;
-  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, a caller's error.
+  // Returns the edited text. Throws kNumeric if two edits touch the same bytes, which is a mistake of the
+  // caller.
   std::string result() const;
 
  private:
@@ -45,7 +46,7 @@ class TextEdits {
 
   std::vector<TextSplice> splices() const;
   void add_splices(SpanValue container, const Changes& changes, std::vector<TextSplice>& splices) const;
-  // These return the white space before the last child, and between its key and value.
+  // These return the white space before the last child, and the white space between its key and value.
   std::string_view space_before(SpanValue child) const;
   std::string colon_of(SpanValue object) const;
 

@@ -81,7 +81,7 @@ std::string utf8_text(const ByteSource& source, const std::string& context) {
 std::string encoded(const std::string& text, TextEncoding encoding, const std::string& context) {
   if (encoding == TextEncoding::kBytes) return text;
   if (!is_utf8(text))
-    throw input_error(context + ": names a file whose name UTF-16 cannot hold (rename the file)");
+    throw input_error(context + ": refers to a file whose name UTF-16 cannot store (rename the file)");
   std::string bytes;
   bytes.reserve(2 * text.size());
   for (std::size_t at = 0; at < text.size();) {

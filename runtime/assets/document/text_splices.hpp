@@ -18,7 +18,8 @@ struct TextSplice {
 // Sorts splices by their places. Splices at the same place keep their order.
 void sort_splices(std::vector<TextSplice>& splices);
 
-// Returns the text with sorted splices. Throws kNumeric if two touch the same bytes, a caller's error.
+// Returns the text with sorted splices. Throws kNumeric if two touch the same bytes, which is a mistake of
+// the caller.
 std::string spliced(std::string_view text, const std::vector<TextSplice>& splices);
 
 // Returns the bytes that sorted splices replace. Insertions replace no bytes.

@@ -1,4 +1,5 @@
-// This file converts materials of any workflow to core glTF. Equal images and factors share results.
+// This file converts materials of any workflow to core glTF. Materials with equal images and factors share
+// the result.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace remap {
 
-// A CoreTexts holds the JSON texts of a material in core glTF; with --extensions also of
+// A CoreTexts holds the JSON texts of a material in core glTF, and with --extensions also of
 // KHR_materials_specular.
 struct CoreTexts {
   std::array<std::string, 4> base_color;
@@ -26,7 +27,7 @@ struct CoreTexts {
 // Returns all members of pbrMetallicRoughness.
 std::vector<MemberText> core_members(const CoreTexts& texts);
 // Describes a material: `base color map times 1 1 1, metallic 0, roughness 1`. `kept` is the word for a map
-// that stays.
+// that does not change.
 std::string core_summary(const CoreTexts& texts, const std::string& kept);
 
 class CoreMaker {

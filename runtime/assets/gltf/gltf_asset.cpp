@@ -51,7 +51,7 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
   return resources;
 }
 
-// Drops files that only replaced images named. The asset no longer needs them.
+// Removes files from the list if only replaced images used them, because the asset no longer needs them.
 void drop_unnamed(AssetConversion& conversion, const std::string& context) {
   std::set<std::string> named;
   for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, context)))
@@ -72,7 +72,7 @@ class ViewCheck {
       const std::optional<std::size_t> length = buffer["byteLength"].whole();
       if (!length)
         throw input_error(context_ + ": /buffers/" + std::to_string(lengths_.size()) +
-                          ": its byteLength is not a whole number");
+                          ": its byteLength is not an integer");
       lengths_.push_back(*length);
     }
     std::vector<std::string> warnings = check_chunk();
@@ -101,7 +101,7 @@ class ViewCheck {
     const SpanValue offset_value = view["byteOffset"];
     const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
     if (!buffer || !length || !offset)
-      throw input_error(name + ": its buffer, byteOffset and byteLength are not whole numbers");
+      throw input_error(name + ": its buffer, byteOffset and byteLength are not integers");
     if (*buffer >= lengths_.size())
       throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
                         counted(lengths_.size(), "buffer"));

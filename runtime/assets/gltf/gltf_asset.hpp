@@ -1,4 +1,4 @@
-// This file handles a whole glTF file: its container, its materials, and the files that it names.
+// This file handles a whole glTF file: its container, its materials, and the files that it refers to.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Returns the files that an asset names. Throws like convert_gltf().
+// Returns the files that an asset refers to. Throws like convert_gltf().
 std::vector<AssetResource> gltf_resources(const ByteSource& source, const std::string& context);
 
 // Reads and converts a file of either form. Throws kInput, beginning with `context`, for a container or a

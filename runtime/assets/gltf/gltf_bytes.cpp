@@ -14,7 +14,7 @@
 namespace remap {
 namespace {
 
-constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // bytes of a file
+constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // limit for the bytes of a file
 
 }  // namespace
 
@@ -63,9 +63,10 @@ std::string GltfBytes::of_uri(const std::string& uri) const {
       return file->read(0, file->size());
     }
     case UriKind::kRemote:
-      throw input_error(plain(uri, 200) + ": is not in a file here (download it beside the asset)");
+      throw input_error(plain(uri, 200) +
+                        ": is a remote address (download the file into the folder of the asset)");
     default:
-      throw input_error(plain(uri, 200) + ": is an absolute path (name the file relative to the asset)");
+      throw input_error(plain(uri, 200) + ": is an absolute path (use a path relative to the asset)");
   }
 }
 

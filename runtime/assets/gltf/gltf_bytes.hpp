@@ -1,4 +1,4 @@
-// This file reads the bytes that a glTF file names: images and views, in the binary chunk, data URIs or
+// This file reads bytes that a glTF file refers to: images and views, in the binary chunk, data URIs or
 // files.
 #pragma once
 

@@ -51,15 +51,16 @@ void require_header(const ByteSource& source, const std::string& context) {
     throw input_error(context + ": is a GLB file of version " + std::to_string(version) +
                       ", but only version 2 can be read");
   if (const std::uint64_t length = number_in(header, 8); length != source.size())
-    throw input_error(context + ": its header says " + std::to_string(length) + " bytes, but the file has " +
-                      std::to_string(source.size()) + " (it is cut off or damaged)");
+    throw input_error(context + ": its header states " + std::to_string(length) +
+                      " bytes, but the file has " + std::to_string(source.size()) +
+                      " (it is cut off or damaged)");
 }
 
 std::string without_padding(std::string json, GltfContainer& container) {
   const std::size_t end = json.find_last_not_of(std::string_view(" \0", 2));
   const std::string_view padding = std::string_view(json).substr(end == std::string::npos ? 0 : end + 1);
   if (padding.find('\0') != std::string_view::npos)
-    container.notes.emplace_back("its JSON is padded with zeros where glTF requires spaces");
+    container.notes.emplace_back("its JSON is padded with zeros instead of the spaces that glTF requires");
   json.resize(json.size() - padding.size());
   return json;
 }
@@ -68,7 +69,7 @@ void require_short(std::uint64_t size, const std::string& context) {
   if (size > kLongestSpannedText)
     throw input_error(context + ": has " + std::to_string(size >> 20) + " MB of JSON; at most " +
                       std::to_string(kLongestSpannedText >> 20) +
-                      " MB are read (keep buffers and images in files of their own)");
+                      " MB can be read (store buffers and images in separate files)");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // This file reads and writes the two forms of a glTF 2.0 file: .gltf is JSON, .glb is a container of chunks
-// (glTF 2.0, section 4). Only the JSON is in memory; all other bytes are ranges of the source.
+// (glTF 2.0, section 4). Only the JSON is in memory. All other bytes are ranges of the source.
 #pragma once
 
 #include <cstddef>
@@ -44,12 +44,12 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
 
 // A BinaryTail is the new end of the binary chunk.
 struct BinaryTail {
-  std::optional<std::uint64_t> kept;  // bytes from its start; all if missing
+  std::optional<std::uint64_t> kept;  // number of bytes that stay, from the start; if missing, all
   std::string appended;               // starts at the next multiple of four
 };
 
-// Returns the file with other JSON. Chunks keep their order, and the binary chunk gets another tail. Throws
-// kOutput, beginning with `context`, for 4 GiB or more, which a container cannot hold.
+// Returns the file with other JSON. Chunks keep their order, but the binary chunk ends with another tail.
+// Throws kOutput, beginning with `context`, if a container would have 4 GiB or more.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
                                   const BinaryTail& tail, const std::string& context);
 

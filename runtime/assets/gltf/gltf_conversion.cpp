@@ -80,12 +80,12 @@ class GltfConversion {
     if (!version) throw input_error(source_.context + ": has no asset.version (it is not a glTF file)");
     if (!version->starts_with("2."))
       throw input_error(source_.context + ": is glTF " + plain(*version, 20) +
-                        ", but only glTF 2 can be read");
+                        ", but only glTF 2 can be read (convert it to glTF 2 first)");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
         result_.asset.warnings.push_back(
             "requires " + plain(name) +
-            ", which is unknown here: it is kept, and its meaning for materials is not");
+            ", which texremap does not know: it stays, but may not fit the converted materials");
   }
 
   // Finds the materials that animations change.
@@ -164,7 +164,7 @@ class GltfConversion {
     result_.asset.text = text.result();
   }
 
-  // Reports vertex colors, because COLOR_0 multiplies different colors in both workflows.
+  // Reports vertex colors: COLOR_0 multiplies base color in one workflow and diffuse in the other.
   void note_colored() {
     std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())
@@ -192,7 +192,8 @@ class GltfConversion {
   SpanValue root_;
   const AssetOptions& options_;
   std::unique_ptr<ImageParts> parts_;
-  std::vector<std::unique_ptr<GltfDirection>> directions_;  // the first that accepts a material converts it
+  // the first direction that accepts a material converts it
+  std::vector<std::unique_ptr<GltfDirection>> directions_;
   std::set<std::pair<std::size_t, std::string>> pointers_;  // keyed by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
   GltfResult result_;

@@ -19,7 +19,7 @@ struct GltfSource {
 };
 
 struct GltfResult {
-  AssetConversion asset;  // its pieces and resources are still missing
+  AssetConversion asset;  // its pieces and resources are filled in later
   BinaryTail tail;
 };
 

@@ -1,5 +1,6 @@
 // This file declares directions of conversion of glTF materials. A direction reads a material, converts it,
-// and returns the new members of its text. The writer (gltf_material_writer.hpp) knows no direction.
+// and returns the new members of its text. The writer (gltf_material_writer.hpp) does not depend on the
+// direction.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ namespace remap {
 
 class MaterialTextures;
 
-// A TextureText is a texture of a converted material: an info of the file, unchanged or with a new texture's
-// index.
+// A TextureText is a texture of a converted material: a texture info of the file, unchanged or with the index
+// of a new texture.
 struct TextureText {
   SpanValue info;                    // empty without a texture
   std::optional<std::size_t> added;  // result of GltfNewImages::add_texture()
@@ -25,7 +26,8 @@ struct TextureText {
   explicit operator bool() const noexcept { return static_cast<bool>(info); }
 };
 
-// A MemberText is a member of an object: a text of JSON or a texture. Without either it is absent.
+// A MemberText is a member of an object: a text of JSON or a texture. If it has neither, the member is
+// absent.
 struct MemberText {
   std::string_view name;
   std::string text;
@@ -44,8 +46,9 @@ struct MaterialEdit {
   std::vector<MemberText> core;  // members of pbrMetallicRoughness, in their order
   std::vector<std::string_view> removed_extensions;
   std::vector<ExtensionText> added_extensions;
-  SpanValue carried_extras;          // extras of a removed extension; pbrMetallicRoughness gets them
-  std::string vertex_color_warning;  // what changes if vertex colors multiply a color, or empty
+  SpanValue carried_extras;  // extras of a removed extension; they move to pbrMetallicRoughness
+  // warning about what vertex colors change if they multiply a color, or empty
+  std::string vertex_color_warning;
 };
 
 class GltfDirection {
@@ -60,7 +63,7 @@ class GltfDirection {
   virtual MaterialEdit convert(SpanValue material, AssetMaterial& report) = 0;
 };
 
-// A DirectionParts holds the inputs of a direction besides materials. Both must outlive the direction.
+// A DirectionParts holds what a direction needs besides materials. All of it must outlive the direction.
 struct DirectionParts {
   const AssetOptions& options;
   MaterialTextures* textures;  // null if no images can be read

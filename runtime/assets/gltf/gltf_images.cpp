@@ -10,10 +10,10 @@
 namespace remap {
 namespace {
 
-// This many images stay decoded, because materials in sequence often share a pair.
+// This many images stay decoded, because materials in sequence often use the same two.
 constexpr std::size_t kRecentImages = 2;
 
-// These extensions of textures name an image of another format. The most common comes first.
+// In these extensions, a texture refers to an image of another format. The most common extension comes first.
 constexpr std::array<std::string_view, 4> kTextureExtensions = {"EXT_texture_webp", "EXT_texture_avif",
                                                                 "KHR_texture_basisu", "MSFT_texture_dds"};
 

@@ -23,7 +23,7 @@ struct AssetImage {
   bool is_jpeg = false;
 };
 
-// A TextureInfo is the way in which a material reads a texture.
+// A TextureInfo states how a material reads a texture.
 struct TextureInfo {
   SpanValue value;
   std::size_t texture = 0;
@@ -46,12 +46,14 @@ class GltfImages {
 
  private:
   const GltfBytes& bytes_;
-  const AssetResources& resources_;  // its codec takes time to load, and many files have no images
+  // asked for the codec only when an image is loaded, because this takes time and many files have no images
+  const AssetResources& resources_;
   std::vector<SpanValue> textures_, samplers_;
   std::list<AssetImage> recent_;  // the newest first
 };
 
-// Returns the images of a texture: first the ones in extensions, the most common first, then its own.
+// Returns the images of a texture: first the images of its extensions, the most common extension first, then
+// its own.
 std::vector<std::size_t> images_of_texture(SpanValue texture);
 
 }  // namespace remap

@@ -15,7 +15,8 @@ constexpr std::size_t kExcerptLength = 40;
 constexpr double kNoLimit = std::numeric_limits<double>::max();
 constexpr std::string_view kClearcoat = "KHR_materials_clearcoat", kSheen = "KHR_materials_sheen";
 
-// The order is that in GltfInput. The sources are glTF 2.0, 5.19 to 5.22, and the extensions of Khronos.
+// The order is the same as in GltfInput. The sources are glTF 2.0, 5.19 to 5.22, and the extensions of
+// Khronos.
 constexpr std::array<GltfInputInfo, kGltfInputs> kInputs = {{
     {kCoreMember, "baseColorTexture", "baseColorFactor", 4},
     {kCoreMember, "metallicRoughnessTexture", "metallicFactor", 1, 2},

@@ -1,5 +1,5 @@
 // This file reads the inputs of glTF materials: factors, and textures that multiply them. A factor keeps its
-// text, so that a number that no conversion changes stays as it is written.
+// text, so that a number that no conversion changes keeps its digits.
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ struct GltfMaterial {
   }
 };
 
-// Reads the given inputs; the others get their defaults. Appends a warning for each factor that it clamps.
+// Reads the given inputs. The others get their defaults. Appends a warning for each factor that it clamps.
 // Throws kInput if an object, a list or a number has another type.
 GltfMaterial read_inputs(SpanValue material, std::span<const GltfInput> inputs,
                          std::vector<std::string>& warnings);

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// Returns every member with that key.
+// Returns all members with that key, which may be repeated.
 std::vector<SpanValue> members_of(SpanValue object, std::string_view key) {
   std::vector<SpanValue> members = object.children();
   std::erase_if(members, [&](const SpanValue& member) { return !member.has_key(key); });
@@ -55,7 +55,7 @@ void GltfMaterialWriter::write_core(const MaterialEdit& edit, AssetMaterial& rep
   edits_.append_member(edit.material, kCoreMember, "{" + object + "}");
 }
 
-// Moves extras of the extension into the extras of core, and replaces none of them.
+// Moves extras of the extension into the extras of core. Extras that core already has stay.
 void GltfMaterialWriter::carry_extras(SpanValue extras, SpanValue core, AssetMaterial& report) {
   const std::string from = extras.parent().key();
   const SpanValue kept = core["extras"];

@@ -15,14 +15,15 @@ namespace remap {
 
 class GltfMaterialWriter {
  public:
-  // All arguments must outlive this object. `images` must be written already; it is null if there are none.
+  // All arguments must outlive this object. `images` must be written already. It is null if there are no new
+  // images.
   GltfMaterialWriter(const SpannedJson& json, const std::string& context, const GltfNewImages* images,
                      TextEdits& edits)
       : json_(json), root_(json.root()), context_(context), images_(images), edits_(edits) {}
 
   void write(const MaterialEdit& edit, AssetMaterial& report);
-  // Adds new extensions to extensionsUsed. Removes from both lists every extension that nothing uses any
-  // more, out of `goers` and of the extensions that materials lost. `removed` holds more values of removed
+  // Adds new extensions to extensionsUsed. It removes extensions from both lists if nothing uses them any
+  // more, and if they are among `goers` or a material lost them. `removed` holds more values of removed
   // extensions. Throws kInput if one of the lists is not a list.
   void update_lists(const std::set<std::string>& goers, const std::set<std::size_t>& removed);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kNoSampler = std::numeric_limits<std::size_t>::max();
 constexpr std::string_view kPng = "image/png", kJpeg = "image/jpeg";
 
-// Takes `wanted` out of `spares`, otherwise the first.
+// Removes `wanted` from `spares` and returns it if it is there. Otherwise does this with the first spare.
 std::optional<std::size_t> take_spare(std::vector<std::size_t>& spares, std::optional<std::size_t> wanted) {
   if (spares.empty()) return std::nullopt;
   auto found = wanted ? std::ranges::find(spares, *wanted) : spares.end();
@@ -54,7 +54,7 @@ std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t mode
   const std::optional<int> quality = coding.jpeg_quality;
   std::string bytes =
       quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level);
-  // Materials that differ only in color often have the same metallic and roughness.
+  // Materials that differ only in color often share the same metallic-roughness image.
   const auto same = std::ranges::find(new_images_, bytes, &NewImage::bytes);
   if (same != new_images_.end()) return static_cast<std::size_t>(same - new_images_.begin());
   new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
@@ -76,7 +76,7 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
     chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
   for (std::size_t i = 0; i < new_images_.size(); ++i) {
     write_image(new_images_[i], i, edits);
-    new_images_[i].bytes = std::string();  // free them: they are written, and may be many
+    new_images_[i].bytes = std::string();  // frees memory: the bytes are written, and may be many
   }
   for (NewTexture& texture : new_textures_) write_texture(texture, edits);
   empty_spares(edits);
@@ -100,14 +100,16 @@ bool GltfNewImages::is_in_chunk(SpanValue image) const {
 std::string GltfNewImages::free_uri(const std::string& model, const NewImage& image) {
   const std::string prefix = resources_.image_prefix();
   std::string stem = stem_beside(model, percent_encoded(prefix), image.suffix);
-  // Line breaks in a URI may be percent-encoded. A URI without line breaks keeps its spelling.
+  // Line breaks in a URI may be percent-encoded. stem_beside() replaces them only in a decoded path. All
+  // other URIs keep their spelling.
   if (const std::string path = stem_beside(percent_decoded(model), prefix, image.suffix);
       path != percent_decoded(stem))
     stem = uri_of_path(path);
   return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
 }
 
-// `own` is the old image that the new one replaces. It is missing if the new image is added.
+// Adds a view of `bytes`. `own` is the old image that the new one replaces, or empty if the new image is
+// added.
 std::size_t GltfNewImages::add_view(const std::string& bytes, SpanValue own, TextEdits& edits) {
   std::string& appended = tail_.appended;
   appended.append((4 - appended.size() % 4) % 4, '\0');
@@ -195,7 +197,7 @@ void GltfNewImages::drop_formats(SpanValue texture, TextEdits& edits) {
   for (const SpanValue& member : gone) edits.remove(member);
 }
 
-// Returns the location of an image that adds no bytes, if there is one, otherwise one texel.
+// Returns the view of another new image, which adds no bytes, or one texel if there is no view.
 GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
@@ -204,8 +206,8 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
            "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel, kUsualPngLevel)) + "\""}};
 }
 
-// Empties spare places that no new image took. An image must have bytes and a view must have at least one
-// byte, so they share the bytes of others.
+// Empties spare places that no new image uses. An image must have bytes, and a view at least one byte, so
+// they refer to bytes that are in use.
 void GltfNewImages::empty_spares(TextEdits& edits) {
   for (const std::size_t image : spares_.images) set_location(images_[image], cheapest_location(), edits);
   for (const std::size_t view : spares_.views) {

@@ -1,6 +1,6 @@
 // This file adds new images and textures to a glTF file. A new image is stored like its model: in the binary
-// chunk, in a URI, or in a file. New entries follow the last ones, or take spare places. No index changes and
-// no byte moves.
+// chunk, in a URI, or in a file. New entries are appended, or replace entries that became free. No index
+// changes and no byte moves.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@
 namespace remap {
 
 struct ImageCoding {
-  std::optional<int> jpeg_quality = std::nullopt;  // missing for PNG
+  std::optional<int> jpeg_quality = std::nullopt;  // if missing, images are PNG
   int png_level = kUsualPngLevel;
 };
 
@@ -34,12 +34,12 @@ class GltfNewImages {
   GltfNewImages(const SpannedJson& json, const GltfContainer& container, const AssetResources& resources,
                 const std::string& context);
 
-  // Adds an image beside its model, an image of the file. `suffix` is part of its name: `_baseColor`. Returns
-  // its number among the new images. If an earlier one has equal bytes, it returns that number.
+  // Adds an image next to its model, an image of the file. `suffix` is part of its name: `_baseColor`.
+  // Returns the number of the new image, or the number of an earlier new image with equal bytes.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
                         const ImageCoding& coding);
-  // Adds a texture of that new image with the sampler of its model, a texture of the file. Returns its
-  // number. If an earlier texture agrees, it returns that number.
+  // Adds a texture of a new image with the sampler of its model, a texture of the file. Returns the number of
+  // the new texture, or the number of an equal one that was added before.
   std::size_t add_texture(std::size_t image, std::size_t model);
 
   // Writes all new images. Call it once, at the end, because only then `spares` is complete.
@@ -86,8 +86,8 @@ class GltfNewImages {
   std::vector<NewImage> new_images_;
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // keyed by image and sampler
-  GltfSpares spares_;                                                          // the free ones
-  std::set<std::size_t> unused_images_;                                        // spare images, taken or not
+  GltfSpares spares_;                                                          // places that are free
+  std::set<std::size_t> unused_images_;  // spare images, whether they were reused or not
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;
@@ -95,7 +95,7 @@ class GltfNewImages {
   BinaryTail tail_;
   std::vector<NewResource> files_;
   std::vector<SpanValue> removed_extensions_;
-  NewImageNames names_;  // names beside the URIs of files
+  NewImageNames names_;  // names of files next to the images of the asset
 };
 
 }  // namespace remap

@@ -15,7 +15,7 @@ namespace {
 // This extension names images, not textures.
 constexpr std::string_view kImageLights = "EXT_lights_image_based";
 
-// Returns an extension that hides what is used, or an empty text.
+// Returns an extension whose uses this file cannot find, or an empty text.
 std::string obscure_extension(SpanValue root) {
   for (const char* list : {"extensionsUsed", "extensionsRequired"})
     for (const SpanValue& entry : root[list].entries())
@@ -95,8 +95,8 @@ class SpareFinder {
       if (!used.contains(image) && image < images_.size()) spares_.images.push_back(image);
   }
 
-  // Finds the views of spare images, unless anything else names them. Every other range of bytes is still
-  // used, even ranges of compressed meshes.
+  // Finds the views of spare images that nothing else uses. Any view that the JSON mentions elsewhere stays,
+  // even for compressed meshes.
   void find_views() {
     Indices lost, used;
     std::set<std::size_t> spare_images;
@@ -113,9 +113,9 @@ class SpareFinder {
     if (!spares_.views.empty()) spares_.chunk_end = spare_tail();
   }
 
-  // Returns where the spare views at the end of the buffer begin. Without any it returns the buffer's end.
+  // Returns where the spare views at the end of the buffer begin, or the end of the buffer if there are none.
   std::uint64_t spare_tail() const {
-    constexpr std::uint64_t kMostGap = 15;  // gap between views that exporters align
+    constexpr std::uint64_t kMostGap = 15;  // largest gap between views, because exporters align them
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
     for (const std::size_t view : spares_.views) {
       const std::uint64_t begin = views_[view]["byteOffset"].whole().value_or(0);

@@ -1,5 +1,6 @@
-// This file finds what only converted materials used: textures, images and views that new ones can replace,
-// and the end of the bytes still in use. No index changes, because extras and other programs may use indices.
+// This file finds textures, images and views that only converted materials used, so that new ones can replace
+// them. It also finds the end of the bytes that are still in use. No index changes, because extras and other
+// programs may use indices.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +16,8 @@
 namespace remap {
 
 struct GltfSpares {
-  std::vector<std::size_t> textures, images, views;  // sorted indices; views of the binary chunk
-  std::optional<std::uint64_t> chunk_end;            // end of what is still used; if missing, nothing is cut
+  std::vector<std::size_t> textures, images, views;  // sorted indices; the views are in the binary chunk
+  std::optional<std::uint64_t> chunk_end;  // end of the bytes still in use; if missing, nothing is cut
 };
 
 // Finds the textures, images and views that nothing uses after the edits. If the file uses extensions that

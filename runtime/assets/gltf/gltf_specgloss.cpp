@@ -93,7 +93,7 @@ class SpecGlossToCore final : public GltfDirection {
     return texts_of_diffuse(material);
   }
 
-  // Returns the exact form, in which only roughness needs a new image.
+  // Returns the exact form of a material without specular color, in which only roughness needs a new image.
   CoreTexts exact(const GltfMaterial& material, AssetMaterial& report) {
     CoreTexts texts = texts_of_diffuse(material);
     if (!has_textures(material, inputs_of(GltfWorkflow::kSpecGloss))) {
@@ -147,17 +147,18 @@ class SpecGlossToCore final : public GltfDirection {
       edit.added_extensions = {
           {kSpecularExtension,
            {{"specularColorFactor", color, {}}, {"specularColorTexture", "", texts.specular_texture}}},
-          // An index of 0 means an F0 of 1, which the color then multiplies (KHR_materials_ior).
+          // An index of 0 sets F0 to 1, which the color then multiplies (KHR_materials_ior).
           {kIorExtension, {{"ior", "0", {}}}}};
     }
     for (const SpanValue& extension : read.text["extensions"].children()) {
       const std::string name = extension.key();
       if (!is_reflecting(name)) continue;
-      // A second conversion of the file would fold extensions that spec-gloss viewers ignored.
+      // Viewers of spec-gloss ignore these extensions. If they stayed, a second conversion of the file would
+      // fold them.
       if (options_.folds_specular && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else
-        report.warnings.push_back(name + ", ignored beside spec-gloss, takes effect from now on");
+        report.warnings.push_back(name + ", ignored in spec-gloss materials, takes effect from now on");
     }
     return edit;
   }

@@ -1,5 +1,5 @@
-// This file folds KHR_materials_specular and KHR_materials_ior into core. One converter goes to spec-gloss,
-// and from there by the projection to core.
+// This file folds KHR_materials_specular and KHR_materials_ior into core. A single converter first converts
+// to spec-gloss, and from there to core by the projection.
 #include <memory>
 
 #include "assets/document/gltf_extensions.hpp"
@@ -27,10 +27,11 @@ class SpecularFold final : public GltfDirection {
   }
 
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
-    // The index bends light in these extensions, and core has only one index.
+    // These extensions also use the index to bend light, but core glTF always has the index 1.5.
     for (const char* name : {"KHR_materials_volume", "KHR_materials_dispersion"})
       if (material["extensions"][name])
-        throw input_error("has " + std::string(name) + ", which needs KHR_materials_ior (leave it as it is)");
+        throw input_error("has " + std::string(name) +
+                          ", which needs KHR_materials_ior (convert it without --fold-specular)");
     GltfMaterial read = read_material(material, GltfWorkflow::kDielectric, report.warnings);
     const CoreTexts texts = maker_.convert(read, report);
     report.residual = texts.residual;

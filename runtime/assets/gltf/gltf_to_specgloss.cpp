@@ -76,7 +76,7 @@ class CoreToSpecGloss final : public GltfDirection {
       edit.removed_extensions = {kSpecularExtension, kIorExtension};
       report.warnings.emplace_back(
           "viewers without spec-gloss show its fallback with an index of 1.5, because KHR_materials_specular "
-          "and _ior must not stand beside spec-gloss");
+          "and _ior must not be used together with spec-gloss");
     }
     if (read.number(GltfInput::kMetallic) > 0.0)
       edit.vertex_color_warning = "tinted its reflection and now tint only its diffuse color";
@@ -84,7 +84,7 @@ class CoreToSpecGloss final : public GltfDirection {
   }
 
  private:
-  // Refuses other extensions, because viewers ignore them beside spec-gloss if they change reflection.
+  // Refuses extensions that change reflection, because viewers ignore them if spec-gloss is present.
   static void require_alone(SpanValue extensions) {
     for (const SpanValue& extension : extensions.children()) {
       const std::string name = extension.key();
@@ -92,8 +92,8 @@ class CoreToSpecGloss final : public GltfDirection {
       if (is_reflecting(name) || !is_known_extension(name))
         throw input_error(
             "has " + plain(name) + ", which " +
-            (is_reflecting(name) ? "viewers ignore" : "is unknown here and may have no meaning") +
-            " beside spec-gloss (remove it, or leave the material as it is)");
+            (is_reflecting(name) ? "viewers ignore in" : "is unknown and may have no effect in") +
+            " spec-gloss materials (remove it, or keep the material unchanged)");
     }
   }
 
@@ -109,7 +109,7 @@ class CoreToSpecGloss final : public GltfDirection {
 
   // Constant maps become factors of `material`.
   SpecGlossTexts texts_of(GltfWorkflow workflow, GltfMaterial& material, AssetMaterial& report) {
-    // Diffuse of a dielectric is its base color, by the conventions of both workflows.
+    // The diffuse of a dielectric is its base color, by the conventions of both workflows.
     const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
     std::span<const GltfInput> inputs = inputs_of(workflow);
     if (has_textures(material, inputs)) {

@@ -34,7 +34,7 @@ std::span<const GltfInput> data_of(GltfWorkflow workflow) {
   return kCoreData;
 }
 
-// Returns the parameter of the converter, or nothing for inputs that F0 comes from.
+// Returns the parameter of the converter, or nothing for inputs that only contribute to F0.
 std::optional<Parameter> parameter_of(GltfInput input) {
   switch (input) {
     case GltfInput::kBaseColor:
@@ -53,7 +53,7 @@ std::optional<Parameter> parameter_of(GltfInput input) {
   }
 }
 
-// Returns the F0 of the index times the color, without its limit of 1.
+// Returns the F0 of the index times the color, which may exceed 1.
 std::array<double, 3> unlimited_f0(const GltfMaterial& material) {
   std::array<double, 3> f0 = material.color(GltfInput::kSpecularColor);
   for (double& value : f0) value *= f0_of_index(material.number(GltfInput::kIor));

@@ -1,4 +1,4 @@
-// This file describes the workflows of glTF materials: their inputs, and what these mean to a converter.
+// This file describes the workflows of glTF materials: their inputs, and what the inputs mean to a converter.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,7 @@ struct GltfMaps {
   const UsedTexture& color_model;
   const UsedTexture& data_model;
   MapSources sources;
-  std::string key;  // equal for materials whose results are equal, except opacity
+  std::string key;  // materials with equal keys have equal results, except for opacity
 
  private:
   ImagePixels f0_;  // only for kDielectric
@@ -57,7 +57,7 @@ struct GltfMaps {
 MaterialTextures& require_images(MaterialTextures* textures);
 
 // Loads the textures of the given inputs by MaterialTextures::load(). Returns nothing if all maps are
-// constant; `material` then has them as factors. Throws kInput if no images can be read.
+// constant. `material` then has them as factors. Throws kInput if no images can be read.
 std::optional<UsedTextures> used_textures(MaterialTextures* textures, GltfMaterial& material,
                                           std::span<const GltfInput> inputs, const GridReason& reason,
                                           std::vector<std::string>& warnings);

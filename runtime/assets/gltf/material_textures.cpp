@@ -141,8 +141,7 @@ void MaterialTextures::align(std::vector<UsedTexture>& textures, const GridReaso
   enlarge(textures);
   if (!wraps_alike)
     warnings.emplace_back(
-        "its textures are repeated differently; each result is as the map that it follows, so they may "
-        "differ outside of 0 to 1");
+        "its textures use different wrap modes: the result may be wrong where UVs are outside 0 to 1");
 }
 
 void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason& reason,
@@ -168,7 +167,7 @@ void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason
     texture.info.transform = place.transform;
     if (&texture != &model && !common->repeats)
       warnings.push_back("its " + texture.name() + " texture is drawn onto the image of its " + model.name() +
-                         " texture, which is right where texture coordinates are within 0 to 1");
+                         " texture, which is correct if texture coordinates are within 0 to 1");
   }
 }
 

@@ -20,11 +20,11 @@ namespace remap {
 
 // A UsedTexture is a texture of a material.
 struct UsedTexture {
-  std::string_view member;              // name in the material or extension: `specularGlossinessTexture`
+  std::string_view member;  // name of the member in the material or extension: `specularGlossinessTexture`
   Transfer transfer = Transfer::kSrgb;  // curve of its colors
   TextureInfo info;
   AssetImage image;
-  std::string bake;  // how its pixels were resampled, or empty
+  std::string bake;  // describes how its pixels were resampled, or is empty
 
   const ImagePixels& pixels() const { return *image.pixels; }
   // Returns the name in messages, such as `specular glossiness`.
@@ -46,8 +46,9 @@ struct UsedTextures {
 
 // A GridReason states why textures must lie on one grid, for messages.
 struct GridReason {
-  std::string_view decided;    // the parameters that all textures determine together, such as `metallic`
-  std::string_view otherwise;  // an option that needs no grid, such as `, or --extensions`; may be empty
+  std::string_view decided;  // the parameters that need all textures at once, such as `metallic`
+  // an option that makes the grid unnecessary, such as `, or --extensions`; may be empty
+  std::string_view otherwise;
 };
 
 // A MaterialTextures serves all materials of a file.
@@ -64,8 +65,8 @@ class MaterialTextures {
   }
   // Throws kInput for an image that cannot be read.
   UsedTexture load(SpanValue texture_info, GltfInput input);
-  // Loads the textures of the inputs. They get one size and one grid as far as the options allow. Maps of one
-  // value become factors of `material`. Throws kInput if this fails.
+  // Loads the textures of the inputs and gives them one size and one grid, as far as the options allow. Maps
+  // of one value become factors of `material`. Throws kInput if this fails.
   UsedTextures load(GltfMaterial& material, std::span<const GltfInput> inputs, const GridReason& reason,
                     std::vector<std::string>& warnings);
 

@@ -43,7 +43,7 @@ bool are_flat(const ImagePixels& pixels, std::size_t first, std::size_t last) {
   return true;
 }
 
-// Stores diffuse as a factor, as the color map times one, or as a new map.
+// Stores diffuse as a factor, as the color map times a factor, or as a new map.
 void settle_diffuse(const MapSources& sources, const std::vector<float>& first, ImagePixels diffuse,
                     SpecGlossMaps& result) {
   const ImagePixels* const color = sources.color;

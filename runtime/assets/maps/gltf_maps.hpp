@@ -13,7 +13,7 @@ namespace remap {
 
 // A MapSources holds the maps of a conversion, all of one size. At least one is given.
 struct MapSources {
-  MapConversion conversion;            // with its sources and their encoding of roughness
+  MapConversion conversion;            // its sources and their encoding of roughness must be set
   const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; may be null
   std::array<double, 3> color_factors = {1.0, 1.0, 1.0};
   const ImagePixels* color_model = nullptr;  // size and type of the results
@@ -22,26 +22,27 @@ struct MapSources {
 
 // A MetalRoughMaps holds maps of core glTF.
 struct MetalRoughMaps {
-  // This map is sRGB, with the alpha of the color map. It is missing if base color is the color map times its
-  // factor within 1/255.
+  // This map is sRGB, with the alpha of the color map. It is missing if the color map times the factor gives
+  // base color within 1/255.
   std::optional<ImagePixels> base_color;
-  std::optional<ImagePixels> metal_rough;   // as glTF packs them; none if both are constant
+  std::optional<ImagePixels> metal_rough;   // packed as in glTF; missing if both are constant
   float metallic = 1.0f, roughness = 1.0f;  // factors
   bool has_metal = false;                   // true if metallic is above 0 anywhere
-  double residual = 0.0;                    // root of the mean square of Parameter::kResidual, of a sample
+  double residual = 0.0;  // root mean square of Parameter::kResidual, over a sample of texels
 };
 
 MetalRoughMaps metal_rough_maps(const Converter& converter, MapSources sources);
 
 // A SpecGlossMaps holds maps of KHR_materials_pbrSpecularGlossiness.
 struct SpecGlossMaps {
-  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is (the color map times) a
-  // factor.
+  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is a factor, or the color map
+  // times a factor.
   std::optional<ImagePixels> diffuse;
   bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
   float alpha = 1.0f;        // alpha of a color map that a factor replaces
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
-  std::optional<ImagePixels> specgloss;  // sRGB specular, with glossiness as alpha; none if both are factors
+  // specular in sRGB, with glossiness as alpha; missing if both are factors
+  std::optional<ImagePixels> specgloss;
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
   float glossiness = 1.0f;
 };

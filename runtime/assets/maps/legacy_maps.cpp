@@ -91,8 +91,8 @@ ImagePixels exponents_of(const LegacyMaps& maps) {
   return result;
 }
 
-// Splits an F0 for KHR_materials_specular. Alpha is its largest channel as a fraction of the largest of all
-// texels. The rest is a color in sRGB.
+// Splits an F0 for KHR_materials_specular. Alpha is the largest channel of a texel, as a fraction of the
+// largest value in the map. The color is F0 divided by that channel, in sRGB.
 void settle_specular(const ImagePixels& f0, PixelType type, LegacyMapResult& result) {
   const std::size_t texels = f0.width * f0.height;
   std::vector<float> values(3 * texels), tints(texels);

@@ -13,7 +13,8 @@ constexpr double kDielectricF0 = 0.04;
 
 double mean_of(const std::array<double, 3>& color) { return (color[0] + color[1] + color[2]) / 3.0; }
 
-// Returns the dielectric fraction of a mixture that reflects `diffuse` and `specular`, means over channels.
+// Returns the dielectric fraction of a mixture that reflects `diffuse` and `specular`. Both are means over
+// channels.
 double dielectric_share(double diffuse, double specular) {
   const double sum = diffuse + specular;
   const double root = std::sqrt(std::max(0.0, sum * sum - 4.0 * kDielectricF0 * diffuse));
@@ -56,7 +57,8 @@ MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse) {
 }
 
 LegacyDielectric dielectric_of_legacy(const LegacyMaterial& material) {
-  // Limits the transmitted light from below. A mirror leaves none for diffuse, and no mirror was measured.
+  // Limits the transmitted light from below. Without a limit, a mirror would leave no light for diffuse. This
+  // was not measured for mirrors.
   constexpr double kLeastTransmitted = 0.02;
   const GgxLobe lobe = ggx_lobe(material);
   LegacyDielectric result;

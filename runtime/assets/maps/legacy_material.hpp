@@ -1,7 +1,7 @@
 // This file converts materials from before microfacets (Wavefront MTL, OpenGL, Collada) to GGX materials. It
-// uses two lines of five constants, chosen by pictures under lights and environments
+// uses two formulas with five constants, chosen by pictures under lights and environments
 // (docs/decisions/060-short-forms.md). The exponent decides the width of the highlight. It also decides its
-// strength, because an unnormalised lobe has energy like 1 / exponent.
+// strength, because an unnormalised lobe has energy proportional to 1 / exponent.
 #pragma once
 
 #include <array>
@@ -37,7 +37,8 @@ GgxLobe ggx_lobe(const LegacyMaterial& material);
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material);
 
 // Returns core glTF for a material without a highlight: base color = diffuse, roughness 1. Core cannot remove
-// the F0 of .04. At roughness 1 this F0 adds about what the diffuse lobe loses by it, so bright colors stay.
+// the F0 of .04. At roughness 1 this F0 adds about as much light as the diffuse lobe loses, so bright colors
+// stay.
 MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse);
 
 // A LegacyDielectric is glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the

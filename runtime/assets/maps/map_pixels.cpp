@@ -47,7 +47,7 @@ ImagePixels blank_like(const ImagePixels& model, std::size_t channels) {
 
 bool is_constant(const ImagePixels& pixels) {
   const std::size_t size = pixels.texel_bytes();
-  // Compares every byte with the byte one texel before.
+  // Compares every byte with the byte one texel before. All are equal if the map is constant.
   return pixels.bytes.size() <= size ||
          std::memcmp(pixels.bytes.data(), pixels.bytes.data() + size, pixels.bytes.size() - size) == 0;
 }
@@ -89,7 +89,7 @@ SourceParameter color_source(const ImagePixels* pixels, const std::array<double,
     source.channels.push_back(channel_of_pixels(*pixels, c));
     source.channel_names.emplace_back(1, "RGB"[c]);
   }
-  // A grey map with different factors has three channels.
+  // A grey map needs three channels if the factors differ.
   if (pixels->is_grey())
     for (std::size_t c = 1; c < 3; ++c) {
       source.channels.push_back(channel_of_pixels(*pixels, 0));

@@ -30,8 +30,8 @@ bool is_constant(const ImagePixels& pixels);
 // Returns true if the values of a channel are within a step of 8 bits.
 bool hardly_varies(const ImagePixels& pixels, std::size_t channel);
 
-// Returns the first texel as stored, 0 to 1: red, green, blue and alpha. Grey is repeated; missing alpha is
-// 1.
+// Returns the first texel as stored, 0 to 1: red, green, blue and alpha. Grey is repeated, and a missing
+// alpha is 1.
 std::array<float, 4> first_texel(const ImagePixels& pixels);
 
 // Converts a stored sRGB value to a linear one.
@@ -40,7 +40,7 @@ float linear_of_srgb(float value);
 // Returns a color in sRGB times linear factors, or the factors if `pixels` is null. `name` is for messages.
 SourceParameter color_source(const ImagePixels* pixels, const std::array<double, 3>& factors,
                              const char* name);
-// Returns a channel times a factor, or the factor if `pixels` is null. `channel` is an index into RGBA; a
+// Returns a channel times a factor, or the factor if `pixels` is null. `channel` is an index into RGBA. A
 // grey image has one channel for all three colors.
 SourceParameter value_source(const ImagePixels* pixels, std::size_t channel, double factor, const char* name);
 
@@ -51,7 +51,7 @@ TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
 // Returns true if the colors of `result` equal `map` times the factors, within a step of 8 bits.
 bool is_map_times(const ImagePixels& result, const ImagePixels& map, const std::array<double, 3>& factors);
 
-// A NormalShares holds measures that separate normals from other colors. Vectors are decoded from 0 to 1.
+// A NormalShares holds measures that distinguish normals from other colors. Vectors are decoded from 0 to 1.
 struct NormalShares {
   double unit = 0.0, inwards = 0.0;  // fractions of texels: of about unit length; pointing into the surface
   std::array<double, 3> mean{};      // mean of red, green and blue as stored

@@ -87,7 +87,7 @@ class GridSampler {
   const TextureGrid& grid_;
 };
 
-// If the coordinates of `from` move by 1 in u or v, the coordinates of `to` move by one of the columns.
+// A column states how the coordinates of `to` move if the coordinates of `from` move by 1 in u or v.
 using Matrix = std::array<std::array<double, 2>, 2>;
 Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
   Matrix steps{};

@@ -29,20 +29,21 @@ struct PlacedTexture {
   TextureTransform transform;
 };
 
-// A CommonGrid is the grid for all textures. `of` is the texture whose place it has.
+// A CommonGrid is the grid for all textures. `of` is the index of the texture whose place the grid has.
 struct CommonGrid {
   std::size_t of = 0;
   TextureGrid grid;
-  bool repeats = true;  // if false, it needs mesh coordinates within 0 to 1
+  bool repeats = true;  // false if it needs mesh coordinates within 0 to 1
 };
 
-// Chooses the texture that repeats least, if all others repeat in it an integer number of times. Otherwise it
-// chooses one that covers coordinates from 0 to 1 without a repeat. Returns its place, or nothing without
-// such a texture. Texels are as fine as the finest, up to 4096 a side or the largest image.
+// Chooses the grid of the texture that repeats least, if all others repeat in it an integer number of times.
+// Otherwise it chooses a texture that covers coordinates from 0 to 1 without a repeat. Returns the place of
+// that texture, or nothing if there is none. Texels of the grid are as small as the smallest texels of any
+// texture. A side has at most 4096 texels, or as many as the largest image.
 std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
 
-// Returns `map` on another grid: for each texel, the value of the map at the same texture coordinates before
-// both transforms, bilinear and repeated. `transfer` is the curve of all channels except alpha, so that they
+// Returns `map` on another grid. Each texel gets the value of the map at the same texture coordinates (before
+// both transforms), bilinear and repeated. `transfer` is the curve of all channels except alpha, so that they
 // are filtered in linear light. Throws kInput if the transform of the grid has no inverse.
 ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransform& transform,
                   const TextureGrid& grid);

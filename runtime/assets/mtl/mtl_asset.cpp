@@ -34,8 +34,8 @@ std::string color_text(const std::array<double, 3>& color) {
   return float_text_of(color[0]) + " " + float_text_of(color[1]) + " " + float_text_of(color[2]);
 }
 
-// Changes a prefix of file names so that no option of a map begins in it, as in `wood -s 2 2`. A backslash
-// would separate folders.
+// Changes a prefix of file names so that no part of it looks like an option of a map, as in `wood -s 2 2`. A
+// backslash would separate folders.
 std::string argument_prefix(std::string prefix) {
   for (std::size_t i = 0; i < prefix.size(); ++i) {
     const bool begins_word = i == 0 || prefix[i - 1] == ' ';
@@ -45,7 +45,8 @@ std::string argument_prefix(std::string prefix) {
   return prefix;
 }
 
-// Writes the name of a file as the argument of a map, and avoids that `-s` is read as an option.
+// Writes the name of a file as the argument of a map. If the name begins with `-`, it must not be read as an
+// option.
 std::string argument(const std::string& file) { return (file.starts_with('-') ? "./" : "") + file; }
 
 // An MtlResult is the result of a material: numbers, and names of new images.
@@ -127,7 +128,7 @@ class BlockEditor {
   // Writes Kd. Channels that stay keep their text.
   void write_diffuse(const std::array<double, 3>& base) {
     if (!surface_.diffuse_statement) {
-      // Without Kd, a map is used unchanged.
+      // A map without Kd is used unchanged, so Kd 1 need not be written.
       const bool is_said = surface_.diffuse_map && std::ranges::all_of(base, [](double value) {
                              return std::fabs(value - 1.0) <= kSameColor;
                            });
@@ -154,7 +155,8 @@ class BlockEditor {
 
   void add(const std::string& line) { added_.push_back(line); }
 
-  // Inserts after the last statement, with its indentation. A text without a last line ending still has none.
+  // Inserts lines after the last statement, with the same indentation. If the text had no line ending at its
+  // end, it still has none.
   void append() {
     const MtlStatement& last = statement(surface_.last_statement);
     const std::string indentation = indentation_of(last);
@@ -168,7 +170,8 @@ class BlockEditor {
     splices_.push_back({{last.ending.end, last.ending.end}, text});
   }
 
-  // Returns the last line's indentation, because a backslash may join earlier lines to the statement.
+  // Returns the indentation of the last line of a statement, because a backslash may join earlier lines to
+  // it.
   std::string indentation_of(const MtlStatement& statement) const {
     const std::string_view before = document_.raw({statement.line.begin, statement.word.begin});
     const std::size_t start = before.find_last_of("\r\n");
@@ -237,7 +240,7 @@ class MtlEditor {
     }
   }
 
-  // Keeps metallic and roughness that the maker writes in other statements.
+  // Returns metallic and roughness that the maker of the file wrote in other statements.
   static MtlResult as_written(const MtlSurface& surface) {
     const MetalRoughNumbers numbers = metal_rough_of(surface, true);
     MtlResult result{
@@ -288,7 +291,7 @@ class MtlEditor {
     return is_constant(channel_of(pixels, channel));
   }
 
-  // Adds an image beside the map that it follows most.
+  // Adds an image, named after and next to the map that it is most like.
   std::string add_image(const ImagePixels& pixels, const MtlSurface& surface, std::string_view suffix) {
     const bool is_color = suffix == "_baseColor";
     const std::optional<MtlMap>& model = is_color && surface.diffuse_map ? surface.diffuse_map

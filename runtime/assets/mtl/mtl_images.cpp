@@ -110,7 +110,7 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
 std::optional<std::string> MtlImages::place_of(const std::string& file) {
   std::vector<std::string> ignored;
   if (const auto found = find(file, ignored)) return found;
-  // A missing file with `..` in its path could be outside the allowed root.
+  // If the path of a missing file begins with `..`, nobody knows whether it lies in the allowed folder.
   if (const auto path = relative_path(folder_, file); path && !path->starts_with("../")) return path;
   return relative_path("", file_name_of(file));
 }
@@ -140,7 +140,7 @@ std::string MtlImages::require(const MtlMap& map, std::vector<std::string>& warn
                       ", which is not applied (bake it into the image)");
   if (resources_ == nullptr) throw input_error(name + ": cannot be read, because no files can be");
   const std::optional<std::string> path = find(map.file, warnings);
-  if (!path) throw input_error(name + ": is not there (put it beside the MTL file)");
+  if (!path) throw input_error(name + ": was not found (put it next to the MTL file)");
   return *path;
 }
 

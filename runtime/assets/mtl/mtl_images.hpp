@@ -1,5 +1,5 @@
-// This file finds the images that MTL files name, below the folder of the asset, and decodes them. It also
-// names new images after them.
+// This file finds and decodes the images that MTL files refer to, below the folder of the asset. It also
+// makes names for new images from them.
 #pragma once
 
 #include <list>
@@ -43,9 +43,10 @@ class MtlImages {
   std::string bytes_of(const std::string& path) const;
   // Returns its pixels. The last few images stay decoded.
   std::shared_ptr<const ImagePixels> load(const std::string& path);
-  // Calls find(). Throws kInput, with the map, if it is missing or has options that change its look.
+  // Calls find(). Throws kInput, with the text of the map, if the file is missing or if the map has options
+  // that change its look.
   std::string require(const MtlMap& map, std::vector<std::string>& warnings);
-  // Loads a map of a surface by require() and load(), and applies its -mm.
+  // Loads a map of a surface by require() and load(), and applies its option -mm.
   std::shared_ptr<const ImagePixels> load(const MtlMap& map, std::vector<std::string>& warnings);
   const AssetResources& resources() const { return *resources_; }
   const std::string& folder() const noexcept { return folder_; }

@@ -35,7 +35,7 @@ void MtlLibraries::read(const std::vector<std::string>& lines, const std::string
     std::size_t found = 0;
     for (const std::string& name : parts_between(line, ' ')) {
       if (name.empty()) continue;
-      // The file may lie here, and not in the folder that its name gives.
+      // The file may lie next to the OBJ file, although its name gives another folder.
       if (read_file(name, warnings) || read_file(file_name_of(name), warnings))
         ++found;
       else
@@ -44,14 +44,14 @@ void MtlLibraries::read(const std::vector<std::string>& lines, const std::string
     if (found == 0 ? read_file(file_name_of(line), warnings) : missing.empty()) continue;
     missing_lines.push_back("mtllib " +
                             plain(missing.size() == 1 ? missing.front() : line, kLongestLibraryName) +
-                            ": is not there");
+                            ": was not found");
   }
   const std::string name = file_name_of(obj), own = name.substr(0, name.find_last_of('.')) + ".mtl";
   const bool reads_own = libraries_.empty() && read_file(own, warnings);
   if (reads_own && missing_lines.empty()) missing_lines.emplace_back("has no mtllib");
   for (const std::string& line : missing_lines)
     warnings.push_back(line + (reads_own ? "; " + plain(own, kLongestLibraryName) + " is read instead"
-                                         : "; its materials count as white"));
+                                         : "; its materials become white"));
 }
 
 bool MtlLibraries::read_file(const std::string& name, std::vector<std::string>& warnings) {

@@ -1,4 +1,4 @@
-// This file finds the MTL files that an OBJ file names, and their materials by name.
+// This file finds the MTL files that an OBJ file refers to, and their materials by name.
 #pragma once
 
 #include <cstddef>
@@ -37,17 +37,18 @@ class MtlLibraries {
   MtlLibraries(const AssetResources& resources, std::optional<MtlMaker> maker)
       : resources_(resources), maker_(maker) {}
 
-  // Reads the files that lines `mtllib` name: one name with spaces, or several names. If none of them exists,
-  // it reads the file with the name of the OBJ file `obj`. Appends a warning for a missing file, and for a
-  // file whose maker gives statements another meaning. Throws kInput for a file that cannot be read.
+  // Reads the files of the lines `mtllib`. A line has one name with spaces, or several names. If no file
+  // exists, it reads the MTL file with the name of the OBJ file `obj`. Appends a warning for a missing file,
+  // and for a file whose maker gives statements another meaning. Throws kInput for a file that cannot be
+  // read.
   void read(const std::vector<std::string>& lines, const std::string& obj,
             std::vector<std::string>& warnings);
-  // Returns a material by its name. If several have the name, the first one counts.
+  // Returns a material by its name. If several have the name, it returns the first one.
   std::optional<Entry> find(const std::string& material) const;
-  // Returns true if Tr is 1 in every material and d in none. MeshLab writes Tr 1 for opaque materials, but
-  // the specification means 1 - d.
+  // Returns true if Tr is 1 in every material and d in none. By the specification, Tr 1 means invisible, but
+  // MeshLab writes Tr 1 for opaque materials.
   bool has_tr_for_opaque() const;
-  // Return the files that were read, and the images that they name, relative to the OBJ file.
+  // Return the files that were read, and the images that they refer to, relative to the OBJ file.
   const std::set<std::string>& paths() const noexcept { return paths_; }
   const std::set<std::string>& image_paths() const noexcept { return image_paths_; }
 

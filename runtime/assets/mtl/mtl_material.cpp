@@ -17,7 +17,7 @@ enum class OptionArguments { kWord, kNumbers };
 struct MapOption {
   std::string_view name;
   OptionArguments arguments;
-  std::size_t most;  // most numbers
+  std::size_t most;  // greatest number of numbers
 };
 constexpr std::array<MapOption, 14> kMapOptions = {{{"-s", OptionArguments::kNumbers, 3},
                                                     {"-o", OptionArguments::kNumbers, 3},
@@ -83,7 +83,7 @@ class MapReader {
       return true;
     }
     std::vector<double> numbers;
-    // Before the name is complete, the last word belongs to it, even if it is a number.
+    // If the name is not complete yet, the last word belongs to it, even if it is a number.
     const std::size_t end = words_.size() - (is_named_ ? 0 : 1);
     while (numbers.size() < option->most && at_ < end) {
       const auto number = mtl_number(document_.raw(words_[at_]));
@@ -190,11 +190,11 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
   return map.file.empty() ? std::nullopt : std::optional(std::move(map));
 }
 
-constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number beside a map
+constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number that a map multiplies
 
 // Applies Blender's rules for materials of its Principled BSDF. Roughness is 1 - sqrt(Ns / scale). Metallic
-// is Ka if illum is 3 or 6 or Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns holds
-// roughness and map_refl metallic. A number beside a map is not used.
+// is Ka if illum is 3 or 6, or if Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns
+// holds roughness and map_refl metallic. If there is a map, the number is not used.
 void apply_blender(double scale, MtlSurface& surface) {
   if (surface.diffuse_map) surface.diffuse = kUnused;
   if (!surface.roughness) {
@@ -211,8 +211,8 @@ void apply_blender(double scale, MtlSurface& surface) {
   if (surface.specular && !surface.specular_map) surface.specular_level = 2.0 * surface.specular->front();
 }
 
-// Applies the rules of nvdiffrec and its descendants: Ks and map_Ks have roughness in green, metallic in
-// blue.
+// Applies the rules of nvdiffrec and of programs based on it: Ks and map_Ks have roughness in green, metallic
+// in blue.
 void apply_nvdiffrec(MtlSurface& surface) {
   const std::array<double, 3> packed = surface.specular.value_or(kUnused);
   surface.roughness = packed[1];
@@ -295,12 +295,13 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
     }
   };
   for (std::size_t i = block.first + 1; i < block.last; ++i) attempt([&] { read(i); });
-  // If there are several lines Ns, the last one is used, and the others are not even read.
+  // If there are several lines Ns, only the last one is read.
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {
-    // No real material makes its map black; exporters write the number that the map replaces.
-    warnings.emplace_back("Kd is 0 beside map_Kd, and counts as 1");
+    // In a real material, Kd 0 would make the map black. Exporters write this number because the map replaces
+    // it.
+    warnings.emplace_back("Kd is 0, which would make map_Kd black: 1 is used instead");
     surface.diffuse = kUnused;
   }
   surface.is_metal_rough = has_metal_rough_lines(document, block);
@@ -334,7 +335,8 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
     }
   }
   if (maker == MtlMaker::kText) return cover;
-  // Blender and others write these numbers beside maps without using them, and illum 6 and 9 for any alpha.
+  // Blender and other programs write these numbers although maps replace them. They also write illum 6 and 9
+  // for any alpha.
   if (cover.opacity_map) cover.opacity = 1.0;
   if (cover.emissive_map) cover.has_emissive = false, cover.emissive = {};
   cover.refracts = false;
@@ -360,7 +362,7 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
   factors.diffuse = surface.diffuse.value_or(
       has_map ? white : std::array<double, 3>{kDiffuseDefault, kDiffuseDefault, kDiffuseDefault});
   if (!surface.diffuse && !has_map)
-    warnings.push_back("has no Kd, which then counts as " + number_text(kDiffuseDefault));
+    warnings.push_back("has no Kd: " + number_text(kDiffuseDefault) + " is used instead");
   factors.specular = surface.specular.value_or(surface.specular_map ? white : black);
   const bool is_shaded_by_specular = surface.illumination.value_or(2.0) >= 2.0;
   const bool is_bright = std::ranges::any_of(factors.specular, [](double value) { return value > 0.0; });
@@ -369,14 +371,14 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
     throw input_error("has map_Ns but no Ns, which the map multiplies (add a line Ns)");
   if (surface.exponent.value_or(0.0) <= 0.0) {
     warnings.push_back((surface.exponent ? "has Ns " + number_text(*surface.exponent) : "has no Ns") +
-                       ", so its Ks counts as no highlight (write the exponent of the highlight as Ns)");
+                       ", so its Ks gives no highlight (write the exponent of the highlight as Ns)");
     return reflection;
   }
   factors.exponent = *surface.exponent;
   if (factors.exponent < LegacyMaterial::kLeastExponent) {
     factors.exponent = LegacyMaterial::kLeastExponent;
     warnings.push_back("Ns " + number_text(*surface.exponent) +
-                       ": the highlight covers the whole surface, and counts as Ns 1");
+                       ": the highlight covers the whole surface, and 1 is used instead");
   }
   reflection.has_highlight = true;
   return reflection;

@@ -14,7 +14,7 @@
 
 namespace remap {
 
-// Reads a finite number; a plus sign may precede it. Returns nothing for any other text.
+// Reads a finite number, which may have a plus sign. Returns nothing for any other text.
 std::optional<double> mtl_number(std::string_view text);
 
 // An MtlMap is a texture: `map_Kd -s 2 2 wood.jpg`.
@@ -22,13 +22,13 @@ struct MtlMap {
   std::size_t statement = 0;  // index of the statement
   TextSpan name;              // place in the text
   std::string file;           // the name with '/' between folders; may hold spaces; may be empty
-  std::string options;        // as written before and after the name
+  std::string options;        // the options before and after the name, as written
   std::array<double, 2> scale = {1.0, 1.0}, offset = {0.0, 0.0};  // -s and -o: u and v
   double strength = 1.0;                                          // option -bm
   bool clamps = false;                                            // option -clamp on
   char channel = '\0';                                            // -imfchan, or 0
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
-  std::vector<TextSpan> levels;      // places of -mm, with the white space after it
+  std::vector<TextSpan> levels;      // places of -mm and of the white space after it
   bool is_color = false;             // if false, all channels are data, also alpha
   std::vector<std::string> unusual;  // options that change the look, and are not applied
 
@@ -43,18 +43,19 @@ struct MtlMap {
 // Reads the file of a statement. Options may also follow the name, as some tools write them.
 MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 
-// An MtlSurface is what reflects light. Of a repeated statement, the last one counts, as elsewhere.
+// An MtlSurface holds what reflects light. If a statement is repeated, the last one is used, as in other
+// programs.
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
   std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
   std::optional<double> illumination;                      // value of illum
   std::optional<double> ambient;                           // red of Ka
   std::optional<double> roughness, metallic;               // Pr, Pm
-  std::optional<double> specular_level;                    // 1 means F0 0.04; only if the maker writes it
+  std::optional<double> specular_level;  // 1 means F0 0.04; only set for makers that write such a level
   std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
   bool has_pbr_bsdf = false;                     // bsdf pbr
   bool is_metal_rough = false;                   // Pr, Pm or the maker give metallic and roughness
-  std::optional<std::size_t> diffuse_statement;  // Kd; makers define the color of a material without it
+  std::optional<std::size_t> diffuse_statement;  // statement Kd; makers have different defaults without it
   std::size_t last_statement = 0;                // last statement of the material
 
   bool is_empty() const {
@@ -80,7 +81,7 @@ struct MtlCover {
   std::optional<double> refraction;                // Ni
   std::array<double, 3> filter = {1.0, 1.0, 1.0};  // Tf, 0 to 1
   bool refracts = false;                           // illum 4, 6, 7 or 9
-  // bump_map holds heights by the specification, but most exporters write normals (holds_normals()).
+  // By the specification, bump_map holds heights, but most exporters write normals (holds_normals()).
   std::optional<MtlMap> opacity_map, emissive_map, normal_map, bump_map;
 };
 
@@ -88,13 +89,14 @@ struct MtlCover {
 MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
 
-// A MetalRoughNumbers holds a surface with metallic and roughness as numbers. A number beside a map of
-// roughness or metallic is ignored, and is 1.
+// A MetalRoughNumbers holds a surface with metallic and roughness as numbers. If there is a map of roughness
+// or metallic, its number is 1, and the number in the file is ignored.
 struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
 };
-// With `is_core` the target adds a highlight to dielectrics, so one without a highlight becomes rough.
+// If `is_core` is set, the target adds a highlight to dielectrics. A dielectric without a highlight then
+// becomes rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
 // An MtlReflection is the surface as factors, which its maps multiply.

@@ -43,7 +43,8 @@ Json specular_of(double specular, const std::array<double, 3>& color) {
   return Json{{"specularFactor", float_value(specular)}, {"specularColorFactor", numbers_of(scaled)}};
 }
 
-// Returns the opacity channel: a map's alpha if it has one, as most tools write it, or its luminance.
+// Returns the channel of opacity: alpha if the map has alpha, because most tools write it there, otherwise
+// luminance.
 char opacity_channel(const MtlMap& map, const ImagePixels& pixels) {
   if (map.channel != '\0') return map.channel;
   return pixels.has_alpha() ? 'm' : 'l';
@@ -70,16 +71,17 @@ struct ObjMaterials::MaterialDraft {
   MtlCover cover;
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double alpha = 1.0, metallic = 0.0, roughness = 1.0;
-  // This is the map of base color: an unchanged file, or pixels. `base_map` gives its place on the surface.
+  // This is the map of base color: a file that stays unchanged, or pixels. `base_map` contains the options
+  // that place it on the surface.
   const MtlMap* base_map = nullptr;
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
   std::size_t base_image = kNoImage;    // index of an image in the file
-  std::size_t* shared_image = nullptr;  // place where other materials find it
+  std::size_t* shared_image = nullptr;  // where other materials find the index of this image
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 
-  // Runs a step for one map. If the map is missing or cannot be read, the rest of the material stays.
+  // Runs a step that needs one map. If the map is missing or cannot be read, only this step is lost.
   bool attempt(const std::function<void()>& step) {
     try {
       step();
@@ -128,7 +130,7 @@ Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& repor
   Json material = Json::object();
   if (!name.name.empty()) material["name"] = utf8_name(name.name);
   material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
-  if (name.is_given) report.warnings.push_back("is in no MTL file that is there, and counts as white");
+  if (name.is_given) report.warnings.push_back("is in no MTL file that was found, and becomes white");
   return material;
 }
 
@@ -213,7 +215,7 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
   draft.keeps_file = true;
 }
 
-// Uses the lines of later tools, which mean the same as in glTF. A map replaces the number.
+// Uses Pr, Pm and their maps, which mean the same as in glTF. A map replaces the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
   const MetalRoughNumbers numbers = metal_rough_of(surface, !options_.extensions);
@@ -223,16 +225,16 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   draft.roughness = numbers.roughness;
   set_specular_level(draft);
   if (!surface.roughness && !surface.roughness_map)
-    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr), which then counts as 1");
+    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr): 1 is used");
   const MtlMap* model = nullptr;
   if (const auto pixels = packed_metal_rough(draft, &model))
     draft.core["metallicRoughnessTexture"] = textures_.info(
         textures_.add_pixels(draft.library.images, *pixels, *model, "_metallicRoughness"), *model);
 }
 
-// Sets the level; 1 is the F0 of 0.04 that glTF has by default. Metals have no specular level.
+// Sets the level. Level 1 is an F0 of 0.04, the default of glTF. Metals have no specular level.
 void ObjMaterials::set_specular_level(MaterialDraft& draft) {
-  constexpr double kSeen = 0.25;  // F0 0.03 to 0.05 look alike
+  constexpr double kSeen = 0.25;  // smaller changes of the level are invisible: F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);
   if (std::fabs(level - 1.0) < kSeen || draft.metallic == 1.0) return;
   if (!options_.extensions) {
@@ -259,7 +261,8 @@ bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   return false;
 }
 
-// Sets the index, which gives the strength of reflection, and Tf, the color of transmitted light.
+// Sets the index of refraction, which determines how much is reflected, and Tf, the color of transmitted
+// light.
 void ObjMaterials::set_glass(MaterialDraft& draft) {
   const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
   draft.base = draft.cover.filter;
@@ -309,7 +312,7 @@ void ObjMaterials::set_dielectric(MaterialDraft& draft, const MtlReflection& ref
     keep_diffuse_map(draft);
     return set_extension(draft, kSpecularExtension, Json{{"specularFactor", 0}});
   }
-  // A single map of diffuse is divided by 1 - F, like a factor.
+  // If diffuse is a map, the map is divided by 1 - F like a factor.
   const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
   const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
   if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
@@ -401,7 +404,7 @@ void ObjMaterials::set_opacity(MaterialDraft& draft) {
   const bool has_map = draft.base_map != nullptr || opacity_map;
   if (!draft.blends || draft.base_image != kNoImage || !has_map) return;
   if (draft.base_pixels == nullptr) {
-    // Other materials may have the same two files.
+    // Other materials may combine the same two files, so the result is stored.
     const std::string key =
         draft.library.images.folder() + '\0' +
         (draft.base_map != nullptr ? draft.base_map->file + '\0' + draft.base_map->options : "") + '\0' +
@@ -431,7 +434,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
-  // Many materials use one file for both.
+  // In many materials, one file is both color and opacity. The file then stays unchanged.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)
@@ -452,7 +455,7 @@ void ObjMaterials::set_emission(MaterialDraft& draft) {
   const bool is_dark = std::ranges::all_of(factor, [](double value) { return value <= 0.0; });
   if (cover.emissive_map) {
     if (cover.has_emissive && is_dark)
-      draft.report.warnings.push_back("Ke is 0 beside map_Ke, and counts as 1");
+      draft.report.warnings.push_back("Ke is 0, which would make map_Ke black: 1 is used instead");
     if (is_dark) factor = kWhite;
     const std::size_t image =
         textures_.add_file(draft.library.images, *cover.emissive_map, draft.report.warnings);
@@ -468,7 +471,7 @@ void ObjMaterials::set_normals(MaterialDraft& draft) {
   if (!map) return;
   if (!draft.cover.normal_map && !holds_normals(*draft.library.images.load(*bump, draft.report.warnings))) {
     draft.report.warnings.push_back(
-        "loses its bump map: it is a map of heights, and glTF has maps of normals");
+        "loses its bump map, because it holds heights and glTF only supports normal maps");
     return;
   }
   Json info = textures_.info(textures_.add_file(draft.library.images, *map, draft.report.warnings), *map);

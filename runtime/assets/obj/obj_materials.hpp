@@ -24,7 +24,7 @@ struct SceneMaterial {
 
 class ObjMaterials {
  public:
-  // All arguments must outlive this object. It adds reports of materials, and warnings, to `conversion`.
+  // All arguments must outlive this object. It adds reports about materials, and warnings, to `conversion`.
   ObjMaterials(const AssetOptions& options, const AssetResources& resources, const MtlLibraries& libraries,
                GltfTextures& textures, AssetConversion& conversion);
   ~ObjMaterials();

@@ -28,8 +28,8 @@ constexpr std::size_t kMostFacesOfPart = std::size_t{1} << 14;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-// ObjLines reads the lines of an OBJ file in order, in blocks. A line is a word and the rest, without white
-// space around them. A backslash joins lines.
+// ObjLines reads the lines of an OBJ file in order, in blocks. A line is a word and the rest, without
+// surrounding white space. A backslash joins lines.
 class ObjLines {
  public:
   ObjLines(const ByteSource& source, const std::string& context) : reader_(source, context) {
@@ -68,7 +68,7 @@ class ObjLines {
     return block_.empty();
   }
 
-  // Appends up to a line ending, and goes behind it. Returns true if there was one.
+  // Appends the text up to a line ending and skips that ending. Returns true if there was one.
   bool add_line() {
     while (!is_at_end()) {
       const auto begin = block_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -89,12 +89,13 @@ class ObjLines {
   std::string_view line_, word_, rest_;
 };
 
-// An ObjStream rewrites an OBJ file for the importer, which ends names of materials at a space and makes one
-// shape of each whole group. Materials and groups become numbers, large groups are cut, and lines without
-// geometry are dropped.
+// An ObjStream rewrites an OBJ file for the importer, which has two limits: it ends names of materials at a
+// space, and it makes one shape of each whole group. Materials and groups become numbers, large groups are
+// cut, and lines without geometry are dropped.
 class ObjStream final : public std::streambuf {
  public:
-  // `take` is called before more lines are made, so that earlier results of the importer can be freed.
+  // The stream calls `take` before it makes more lines, so that `take` can free earlier results of the
+  // importer.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.push_back({"", false});
@@ -110,7 +111,7 @@ class ObjStream final : public std::streambuf {
     if (fans_ > 0)
       scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
                                 std::to_string(kMostClippedCorners) +
-                                " corners cut as fans, which is right where they are convex");
+                                " corners cut as fans, which is only correct if they are convex");
   }
 
   // Return the name for a number. Number 0 is for faces without a name.
@@ -163,8 +164,8 @@ class ObjStream final : public std::streambuf {
     return words;
   }
 
-  // Refuses large exponents, because the importer reads their digits into an integer of 32 bits. No
-  // coordinate has six digits.
+  // Refuses large exponents, because the importer reads their digits into a 32-bit integer. No coordinate
+  // needs an exponent of six digits.
   std::string_view bounded(std::string_view line) const {
     constexpr std::size_t kMostDigits = 5;
     std::size_t digits = 0;
@@ -199,7 +200,7 @@ class ObjStream final : public std::streambuf {
       for (std::size_t i = 2; i < corners_.size(); ++i)
         ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
     }
-    // Cut here only if all vertices of the faces are known, because the importer triangulates them now.
+    // Cuts only if all vertices of the faces are known, because the importer triangulates the faces at a cut.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
@@ -214,7 +215,7 @@ class ObjStream final : public std::streambuf {
     }
   }
 
-  // Returns the number of the vertex of a corner if it counts from the first vertex.
+  // Returns the vertex index of a corner if the index is positive, so that it counts from the first vertex.
   static std::size_t vertex_of(std::string_view corner) {
     std::size_t number = 0;
     const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);
@@ -236,7 +237,7 @@ class ObjStream final : public std::streambuf {
   const std::string& context_;
   ObjScene& scene_;
   std::function<void()> take_;
-  std::string made_, text_;  // lines to come, and lines that are being read
+  std::string made_, text_;  // lines to come, and the lines that the importer is reading
   std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
   std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
@@ -245,7 +246,8 @@ class ObjStream final : public std::streambuf {
   std::map<std::string, std::string> numbers_;  // numbers of materials
 };
 
-// NumberedMaterials makes the importer treat the name of a library as the number of its only material.
+// NumberedMaterials gives the importer a library whose name is a number and whose only material has this
+// number.
 class NumberedMaterials final : public tinyobj::MaterialReader {
  public:
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>*,
@@ -301,7 +303,7 @@ class CornerSet {
   }
 
   std::vector<ObjCorner> corners_;
-  std::vector<std::uint32_t> slots_;  // numbers of corners, at or behind the place of their hash
+  std::vector<std::uint32_t> slots_;  // numbers of corners; each is at the place of its hash, or after it
 };
 
 using Vector = std::array<double, 3>;
@@ -413,7 +415,7 @@ class PrimitiveMaker {
 
   const tinyobj::attrib_t& attributes_;
   ObjPrimitive primitive_;
-  std::vector<bool> is_lacking_;  // normals, by vertex
+  std::vector<bool> is_lacking_;  // vertices that lack a normal
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
@@ -445,15 +447,14 @@ class ObjReader {
  private:
   void load() {
     std::istream stream(&stream_);
-    stream.exceptions(std::ios::badbit);  // so that an exception while reading arrives here
+    stream.exceptions(std::ios::badbit);  // without this, the stream would ignore exceptions while reading
     NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;
     const bool is_read =
         tinyobj::LoadObj(&attributes_, &shapes_, &none, &warning, &fault, &stream, &materials, true, false);
     if (!is_read)
-      throw input_error(context_ +
-                        ": a face cannot be read (its indices must be whole numbers other than 0)");
+      throw input_error(context_ + ": a face cannot be read (its indices must be integers other than 0)");
     if (warning.find("invalid vertex index") != std::string::npos ||
         warning.find("out of bounds") != std::string::npos)
       throw input_error(context_ +

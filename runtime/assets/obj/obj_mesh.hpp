@@ -13,14 +13,15 @@ namespace remap {
 
 // Limits the file, because it takes up to three times as much memory.
 inline constexpr std::size_t kLongestObj = std::size_t{1} << 30;
-// Polygons with more corners become fans of triangles, because other methods take the cube of their number.
+// Polygons with more corners become fans of triangles. Other methods need time proportional to the cube of
+// the corners.
 inline constexpr std::size_t kMostClippedCorners = 1024;
 
 // An ObjPrimitive is triangles of one material. Attributes have an entry for each vertex, or none at all.
 struct ObjPrimitive {
   std::size_t material = 0;            // index into ObjScene::materials
   std::vector<float> positions;        // x, y, z
-  std::vector<float> normals;          // of length 1; a missing one comes from the faces
+  std::vector<float> normals;          // of length 1; missing normals are computed from the faces
   std::vector<float> texcoords;        // u, v, with v from the top as in glTF
   std::vector<float> colors;           // red, green, blue from 0 to 1
   std::vector<std::uint32_t> indices;  // three for a triangle

@@ -18,7 +18,7 @@ namespace remap {
 
 enum class NewImagePlace {
   kBuffer,  // into the buffer
-  kFiles,   // existing files stay where they are, new ones lie beside them
+  kFiles,   // existing files stay where they are, and new files are next to them
 };
 
 class GltfTextures {
@@ -35,7 +35,7 @@ class GltfTextures {
 
   // Reserves a path, so that no new image gets it.
   void take(const std::string& path) { names_.take(path); }
-  // Adds the image of a map, each file once. PNG and JPEG stay unchanged; other formats and maps with -mm
+  // Adds the image of a map, each file once. PNG and JPEG stay unchanged. Other formats, and maps with -mm,
   // become PNG. Appends warnings. Throws kInput if the image is missing, cannot be read, or has options that
   // change its look.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
@@ -48,7 +48,7 @@ class GltfTextures {
   // Returns the number of references so far.
   std::size_t info_count() const noexcept { return info_count_; }
   bool has_transforms() const noexcept { return has_transforms_; }
-  // Return the lists of the file; each may be empty.
+  // Return the lists of the file, each of which may be empty.
   const Json& textures() const noexcept { return textures_; }
   const Json& images() const noexcept { return images_; }
   const Json& samplers() const noexcept { return samplers_; }
@@ -66,7 +66,8 @@ class GltfTextures {
   NewImageNames names_;
   std::map<std::string, std::size_t> of_files_;  // images by path, and options with -mm
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_bytes_;  // new images by size and hash
-  std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;  // textures by image and whether they clamp
+  // textures, keyed by their image and whether they clamp
+  std::map<std::pair<std::size_t, bool>, std::size_t> of_images_;
   std::size_t info_count_ = 0;
   bool has_transforms_ = false;
 };

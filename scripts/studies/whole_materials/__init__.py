@@ -1,1 +1,2 @@
-"""The parts of scripts/studies/translations: random materials, what is in use, pictures and errors, search, pages."""
+"""These modules are the parts of scripts/studies/translations: random materials, translations in use, pictures and
+errors, search, pages."""

@@ -1,4 +1,5 @@
-"""The five lobes without a closed form: the parameters of one lobe that look most like another, found by search over this lobe only."""
+"""Measures the five lobes without a closed form. A search over a single lobe finds the parameters that look most like
+another lobe."""
 import dataclasses
 import json
 import pathlib
@@ -11,18 +12,19 @@ from whole_materials import in_use, pictures, search
 
 RECORD = pathlib.Path(__file__).with_name("curves.json")
 RESOLUTION = 64
-MOVED = 0.02  # a parameter that moves by less has not changed
+MOVED = 0.02  # a parameter that moves by less is treated as unchanged
 
 
 @dataclasses.dataclass(frozen=True)
 class Curve:
-    """One lobe. `source` makes a material of the points; `rest` is what the target needs to show its lobe alone."""
+    """Describes one lobe. `source` makes a material from the points. `rest` holds what the target needs to show only
+    this lobe."""
     name: str
     direction: tuple
-    columns: tuple  # the names of a point's numbers
+    columns: tuple  # names of a point's numbers
     points: tuple
     source: Callable
-    searched: dict  # inputs of the target, with their range
+    searched: dict  # inputs of the target to search, with their ranges
     rest: dict
     starts: tuple
 
@@ -35,7 +37,7 @@ def sheen(roughness):
     return {"base": 0, "specular": 0, "sheen": 1, "sheen_roughness": roughness}
 
 
-# An index of refraction of 1 reflects nothing, but takes the same light from below in both models.
+# An index of refraction of 1 reflects nothing, but in both models it takes the same light from the lobes below.
 def eon(roughness, albedo):
     return {"base_color": (albedo,) * 3, "base_diffuse_roughness": roughness, "specular_ior": 1}
 
@@ -88,7 +90,7 @@ def closest(curve, stage, source, target, fixed):
 
 
 def shown(curve, values):
-    """Returns the searched inputs as the target shows them: a weight multiplies its colour."""
+    """Returns the searched inputs, multiplied by their weights, because only the product is visible."""
     weights = {"sheen_color": "sheen", "fuzz_color": "fuzz_weight"}
     if curve.name.startswith(("EON", "Oren")):
         weights["base_color"] = "base" if curve.direction == TO_STANDARD else "base_weight"
@@ -96,7 +98,8 @@ def shown(curve, values):
 
 
 def measure(curve, translations):
-    """Returns a row for each point: what is closest, what the translation uses, and the errors of both and of what is in use."""
+    """Returns a row for each point: the closest parameters, what the translation uses, and the errors of both and of
+    the translation in use."""
     stage, target = pictures.stage(curve.direction[0], RESOLUTION), shaders.model_shader(curve.direction[1])
     rows = []
     for point in curve.points:
@@ -118,7 +121,7 @@ def measure(curve, translations):
 
 
 def recorded():
-    """Returns the measurement that is part of the project, or an empty one."""
+    """Returns the recorded measurement, or an empty one."""
     return json.loads(RECORD.read_text()) if RECORD.exists() else {"materialx": None, "curves": {}}
 
 
@@ -135,7 +138,7 @@ def rounded(part):
 
 
 def moved(rows, before):
-    """Returns the points of a curve whose closest parameters, or whose error, are not as they were recorded."""
+    """Returns the points of a curve whose closest parameters or whose error differ from the record."""
     old = {tuple(row["point"]): row for row in before}
     found = []
     for row in rows:

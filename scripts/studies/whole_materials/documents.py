@@ -1,17 +1,18 @@
-"""Materials of MaterialX documents, as values of their models."""
+"""Reads materials of MaterialX documents, as values of their models."""
 import pathlib
 
 
 import materialx_shaders as shaders
 
 LINEAR = ("", "lin_rec709", "linear")
-LEAST_ROUGHNESS = 0.15  # a highlight below a pixel decides nothing
+LEAST_ROUGHNESS = 0.15  # smoother highlights are smaller than a pixel and would only add noise
 NO_HIGHLIGHT = ("diffuse_roughness", "coat_affect_roughness", "transmission_extra_roughness", "sheen_roughness")
 SEEN_THROUGH = {"transmission": 0, "transmission_weight": 0, "opacity": 1, "geometry_opacity": 1, "alpha": 1}
 
 
 def constants(node):
-    """Returns the values of a surface node. A connected input is Unusable, because it differs from point to point."""
+    """Returns the values of a surface node. Raises Unusable for a connected input, because it differs from point to
+    point."""
     values = {}
     types = shaders.input_types(node)
     for given in node.getActiveInputs():
@@ -28,7 +29,8 @@ def constants(node):
 
 
 def judged(values, defaults):
-    """Returns the values with every lobe as rough as can be judged. Transparent materials are Unusable: nothing is behind them."""
+    """Returns the values, with every lobe rough enough to be judged. Raises Unusable for transparent materials,
+    because nothing is behind them."""
     for name, usual in SEEN_THROUGH.items():
         if name in values and values[name] not in (usual, (usual,) * 3):
             raise shaders.Unusable(f"{name} is not judged, because nothing is behind the sphere")
@@ -37,9 +39,10 @@ def judged(values, defaults):
 
 
 def materials(path):
-    """Returns name, model and values of each material of a document, and what had to be skipped, with the reason."""
+    """Returns name, model and values of each material of a document. Also returns what was skipped, with the reason.
+    """
     found, skipped = [], []
-    document = shaders.read_document(path)  # nodes do not keep it alive
+    document = shaders.read_document(path)  # keeps the document alive, because its nodes do not
     if not shaders.surface_nodes(document):
         raise shaders.Unusable(f"{path}: has no material with a surface shader")
     for name, node in shaders.surface_nodes(document):
@@ -54,7 +57,8 @@ def materials(path):
 
 
 def examples(place):
-    """Returns all materials of a document, or of a folder of documents, as name, model, values; and the list of what is skipped."""
+    """Returns name, model and values of all materials in a document or in a folder of documents, and the list of what
+    is skipped."""
     place = pathlib.Path(place)
     paths = sorted(place.glob("*.mtlx")) if place.is_dir() else [place]
     if not paths:

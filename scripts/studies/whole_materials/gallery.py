@@ -1,4 +1,5 @@
-"""Six pictures for a page: each material as it is, as the translation in use makes it, and as ours does, side by side."""
+"""Draws six pictures for a page. Each shows a material as it is, as the translation in use makes it, and as ours
+does, side by side."""
 import dataclasses
 import pathlib
 
@@ -7,13 +8,13 @@ import numpy as np
 from whole_materials import documents, in_use, judge, pictures, site
 
 SIDE, MARGIN = 160, 6
-GROUND = 0.94  # display value of the light ground
+GROUND = 0.94  # display value of the light background
 MOST_BYTES = 60_000
 
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
-    """A material of the gallery: the name of an example document, or the inputs themselves."""
+    """Describes a material of the gallery: the name of an example document, or the inputs themselves."""
     name: str
     direction: tuple
     material: object
@@ -23,14 +24,14 @@ SUBJECTS = [
     Subject("car-paint", ("UsdPreviewSurface", "open_pbr_surface"), "usd_preview_surface_carpaint"),
     Subject("brushed-aluminium", ("open_pbr_surface", "standard_surface"), "open_pbr_aluminum_brushed"),
     Subject("velvet", ("open_pbr_surface", "gltf_pbr"), "open_pbr_velvet"),
-    # Gold below a lacquer. Many metals of standard_surface get their color in this way.
+    # This is gold below a lacquer. Many metals of standard_surface get their color in this way.
     Subject("gold", ("standard_surface", "open_pbr_surface"),
             {"base": 1.0, "base_color": (0.944, 0.776, 0.373), "metalness": 1.0, "specular_color": (0.998, 0.981, 0.751),
              "specular_roughness": 0.35, "coat": 1.0, "coat_color": (1.0, 0.62, 0.4), "coat_roughness": 0.15}),
-    # A matt plastic below a smooth coat.
+    # This is a matt plastic below a smooth coat.
     Subject("plastic", ("principled", "open_pbr_surface"),
             {**in_use.PRINCIPLED_DEFAULTS, "base_color": (0.7, 0.05, 0.04), "roughness": 0.4, "coat_weight": 1.0, "coat_roughness": 0.15}),
-    # A rough diffuse surface with a layer of fibres.
+    # This is a rough diffuse surface with a layer of fibres.
     Subject("cloth", ("open_pbr_surface", "standard_surface"),
             {"base_color": (0.08, 0.16, 0.42), "base_diffuse_roughness": 1.0, "specular_roughness": 0.7, "specular_weight": 0.5,
              "fuzz_weight": 0.8, "fuzz_color": (0.7, 0.8, 1.0), "fuzz_roughness": 0.7}),
@@ -46,7 +47,7 @@ def values_of(subject, folder):
 
 
 def strip(balls):
-    """Returns the bytes of a PNG file of spheres side by side on a light ground."""
+    """Returns the bytes of a PNG file of spheres side by side on a light background."""
     width = len(balls) * SIDE + (len(balls) + 1) * MARGIN
     picture = np.full((SIDE + 2 * MARGIN, width, 3), GROUND)
     for number, ball in enumerate(balls):

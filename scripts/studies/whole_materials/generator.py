@@ -1,7 +1,8 @@
-"""Random whole materials of each model.
+"""Makes random whole materials of each model.
 
-Half have a coat. A half is dielectric, a quarter metal, a quarter mixed. Three in ten have fuzz or sheen. Every lobe is as rough as .2,
-because a highlight below a pixel decides nothing. There is no emission, transmission, subsurface scattering or thin film.
+Half have a coat. Half are dielectric, a quarter are metal, and a quarter are mixed. Three in ten have fuzz or sheen.
+Every lobe has at least roughness .2, because smaller highlights than a pixel would only add noise. There is no
+emission, transmission, subsurface scattering or thin film.
 """
 import numpy as np
 
@@ -9,7 +10,7 @@ LEAST_ROUGHNESS = 0.2
 
 
 class Draw:
-    """Random numbers of one material, in the units of materials."""
+    """Draws random numbers for one material, in the units of materials."""
 
     def __init__(self, *seeds):
         self.random = np.random.default_rng(seeds)
@@ -21,7 +22,7 @@ class Draw:
         return bool(self.random.random() < chance)
 
     def mostly(self, usual, chance, low, high):
-        """Returns `usual`, or with this chance a number of the range."""
+        """Returns `usual`, or with the given chance a number of the range."""
         return self.between(low, high) if self.happens(chance) else float(usual)
 
     def color(self, low, high):
@@ -30,7 +31,7 @@ class Draw:
         return tuple(np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4).tolist())
 
     def tint(self, chance):
-        """Returns white, or with this chance a light color."""
+        """Returns white, or with the given chance a light color."""
         return self.color(0.5, 1) if self.happens(chance) else (1.0, 1.0, 1.0)
 
     def roughness(self, most=0.9):
@@ -41,7 +42,7 @@ class Draw:
         return 0.0 if kind < 0.5 else 1.0 if kind < 0.75 else self.between(0.1, 0.9)
 
     def weight(self, chance):
-        """Returns 0, or with this chance a weight; half of those are 1."""
+        """Returns 0, or with the given chance a weight, which is 1 in half of the cases."""
         return self.mostly(1, 0.5, 0.2, 1) if self.happens(chance) else 0.0
 
 

@@ -1,7 +1,8 @@
-"""What people use today for each direction: MaterialX' own graphs or chains of them, names that are copied, Blender's exporter."""
+"""Converts materials as people do it today, for each direction: by MaterialX' own graphs or chains of them, by
+copying values of the same name, or by Blender's exporter."""
 import materialx_shaders as shaders
 
-# Inputs of the same meaning: the name in OpenPBR, then the name in the source.
+# These inputs have the same meaning. Each has its name in OpenPBR, then its name in the source.
 OPEN_PBR_OF_USD = {"base_color": "diffuseColor", "base_metalness": "metallic", "specular_roughness": "roughness",
                    "specular_ior": "ior", "coat_weight": "clearcoat", "coat_roughness": "clearcoatRoughness",
                    "emission_color": "emissiveColor", "geometry_opacity": "opacity"}
@@ -32,7 +33,8 @@ def gltf_to_core(values):
 
 
 def principled_to_open_pbr(values):
-    """Does what Blender 5.0 writes into USD files with a MaterialX network. It leaves coat_darkening out, so that it is 1."""
+    """Converts like Blender 5.0 when it writes USD files with a MaterialX network. Blender omits coat_darkening, so
+    it becomes 1."""
     blender = {**PRINCIPLED_DEFAULTS, **values}
     return {**copied(OPEN_PBR_OF_PRINCIPLED, blender), "specular_weight": 2 * blender["specular_ior_level"],
             "specular_roughness_anisotropy": 0.7 * blender["anisotropic"]}
@@ -58,7 +60,7 @@ COPIED = {("UsdPreviewSurface", "open_pbr_surface"): usd_to_open_pbr, ("gltf_pbr
 
 
 def shader_and_values(direction, values):
-    """Returns the shader that shows the translation in use, and the values that it takes."""
+    """Returns the shader that shows the translation in use, and its values."""
     if direction in OFFICIAL:
         shader = shaders.chain_shader(OFFICIAL[direction])
         return shader, {name: value for name, value in values.items() if name in shader.types}
@@ -67,7 +69,7 @@ def shader_and_values(direction, values):
 
 
 def name_of(direction):
-    """Says what is in use, in the words of a table."""
+    """Returns what is in use, in words for a table."""
     if direction in OFFICIAL:
         return "official graph" if len(OFFICIAL[direction]) == 2 else "official chain"
     if direction[1] == "gltf_pbr_core":

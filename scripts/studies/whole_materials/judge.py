@@ -1,4 +1,5 @@
-"""The judgement of one direction: materials as they are, as the translation in use makes them, as ours does, as a search can."""
+"""Judges one direction: materials as they are, as the translation in use makes them, as ours does, and as close as a
+search comes."""
 import importlib.util
 import pathlib
 
@@ -15,7 +16,7 @@ DIRECTIONS = [("UsdPreviewSurface", "open_pbr_surface"), ("principled", "open_pb
 
 
 class Module:
-    """Our translations as functions of an emitted Python module."""
+    """Holds our translations as functions of an emitted Python module."""
 
     def __init__(self, path):
         spec = importlib.util.spec_from_file_location("remap_translations", path)
@@ -27,7 +28,7 @@ class Module:
             raise shaders.Unusable(f"{path}: is not a module of translations ({type(failure).__name__}: {failure})") from None
 
     def values(self, direction, values):
-        """Returns the inputs of the target, or None where there is no such translation."""
+        """Returns the inputs of the target, or None if there is no such translation."""
         return plain(self.functions[direction](values)) if direction in self.functions else None
 
     def version(self, direction, values):
@@ -37,14 +38,14 @@ class Module:
 
 
 class Graphs:
-    """Our translations as node graphs of a MaterialX file, which the shader evaluates."""
+    """Holds our translations as node graphs of a MaterialX file. The shader evaluates them."""
 
     def __init__(self, path):
         self.path = str(path)
         shaders.libraries(self.path)
 
     def values(self, direction, values):
-        return None  # they exist in the shader only
+        return None  # the values exist only in the shader
 
     def version(self, direction, values):
         if direction[0] == "principled":
@@ -54,7 +55,7 @@ class Graphs:
 
 
 class Nothing:
-    """No translations of ours: only what is in use is judged."""
+    """Holds no translations of ours, so that only the translation in use is judged."""
 
     def values(self, direction, values):
         return None
@@ -63,7 +64,8 @@ class Nothing:
 
 
 def read_translations(path):
-    """Returns our translations, of a Python module or a MaterialX file. A file that is missing or broken is Unusable."""
+    """Returns our translations from a Python module or a MaterialX file. Raises Unusable if the file is missing or
+    broken."""
     path = pathlib.Path(path)
     if not path.is_file():
         raise shaders.Unusable(f"{path}: no such file (--translations names a Python module or a MaterialX file of translations)")
@@ -80,7 +82,7 @@ def plain(values):
 
 
 def versions(direction, values, translations):
-    """Returns shader and values of the translation in use of a material, and of ours where there is one."""
+    """Returns shader and values of the translation in use for a material, and of ours if there is one."""
     found = {IN_USE: in_use.shader_and_values(direction, values)}
     ours = translations.version(direction, values)
     if ours:
@@ -89,7 +91,8 @@ def versions(direction, values, translations):
 
 
 def floor(direction, values, ours):
-    """Returns shader and values of the closest pictures that a search finds from ours, and from the starts of the model."""
+    """Returns shader and values of the closest pictures that a search finds. It starts from our translation, and from
+    the starts of the model."""
     model = shaders.model_of(direction[1])
     stage, target = pictures.stage(direction[0], search.RESOLUTION), shaders.model_shader(model)
     source = stage.under_singles(pictures.shader_of(direction[0]), values)
@@ -108,7 +111,7 @@ def judge(direction, values, translations, with_floor=False):
 
 
 def summary(errors):
-    """Returns what a table says about the errors of many materials, by version."""
+    """Returns the entry of a table for the errors of many materials, by version."""
     table = {}
     for name in (IN_USE, OURS, FLOOR):
         linear = np.array([one[name]["linear"] for one in errors if name in one])

@@ -1,7 +1,8 @@
-"""Offers to other programs (docs/adopting): what a change of theirs does to the pictures of random materials.
+"""Measures offers to other programs (docs/adopting): how a change of the program affects the pictures of random
+materials.
 
-The changes of MaterialX' graphs are lists of nodes on the pages, and the Python lines of a page are run as they stand there. The C++
-lines of Blender's exporter are repeated here in Python.
+The changes of MaterialX' graphs are lists of nodes on the pages. The Python lines of a page are run unchanged. The
+C++ lines of Blender's exporter are repeated here in Python.
 """
 import dataclasses
 import functools
@@ -23,28 +24,29 @@ LAMP = {"diffuseColor": (0.1, 0.1, 0.1), "emissiveColor": (1.0, 0.6, 0.2)}
 
 @dataclasses.dataclass(frozen=True)
 class Change:
-    """A row of a page: `before` and `after` return shader and values that show a material; `concerns` chooses materials."""
+    """Describes a row of a page. `before` and `after` return shader and values that show a material. `concerns`
+    chooses materials."""
     words: str
     direction: tuple
     before: object
     after: object
     concerns: object = lambda values: True
-    materials: tuple = ()  # instead of random ones
+    materials: tuple = ()  # if given, used instead of random materials
 
 
 def block(page, name):
-    """Returns the code of a page below the comment <!-- applied: NAME -->."""
+    """Returns the code block of a page that follows the comment <!-- applied: NAME -->."""
     found = re.search(rf"<!-- applied: {re.escape(name)} -->\n```\w*\n(.*?)```", (PAGES / page).read_text(), re.DOTALL)
     if not found:
         raise shaders.Unusable(f"docs/adopting/{page}: has no code block below <!-- applied: {name} -->")
     return found[1]
 
 
-# MaterialX' graphs
+# The following functions change MaterialX' graphs.
 
 
 def set_argument(graph, node, name, text):
-    """Sets an input of a node: a number, an input of the graph, or another node."""
+    """Sets an input of a node to a number, an input of the graph, or another node."""
     interface = graph.getNodeDef().getActiveInput(text)
     other = interface or graph.getNode(text)
     if other is None:
@@ -57,7 +59,8 @@ def set_argument(graph, node, name, text):
 
 
 def apply_list(graph, text):
-    """Applies `NAME TYPE NODE(ARGUMENTS)`, by lines or semicolons: adds a node, or replaces the one of its name. `output` connects one."""
+    """Applies `NAME TYPE NODE(ARGUMENTS)`, separated by lines or semicolons. It adds a node, or replaces the node of
+    that name. `output` connects an output."""
     for line in filter(None, map(str.strip, re.split("[;\n]", text))):
         found = LINE.fullmatch(line)
         if not found:
@@ -80,7 +83,7 @@ def changed_graph(direction, lists):
     definition, graph = document.addNodeDef("ND_" + name, "", name), document.addNodeGraph("NG_" + name)
     for copy, source in ((definition, official.getNodeDef("ND_" + name)), (graph, official.getNodeGraph("NG_" + name))):
         copy.copyContentFrom(source)
-        copy.setSourceUri("")  # otherwise a file includes the official one instead
+        copy.setSourceUri("")  # otherwise a file would include the official graph instead
     for text in lists:
         apply_list(graph, text)
     return document
@@ -90,7 +93,7 @@ GRAPHS = {"coat": "materialx-coat.md", "anisotropy": "materialx-anisotropy.md", 
 
 
 def write_graph(folder, direction, names):
-    """Writes the official graph of a direction with some changes of the pages into a folder, and returns the path."""
+    """Writes the official graph of a direction, with some changes of the pages, into a folder. Returns the path."""
     lists = [block(GRAPHS[name], f"{name}, {direction[0]}") for name in names]
     path = pathlib.Path(folder) / f"{'_to_'.join(direction)}-{'-'.join(names)}.mtlx"
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -132,11 +135,12 @@ def graph_changes(*names, words, concerns=lambda values: True):
             for direction in ((OPEN_PBR, STANDARD), (STANDARD, OPEN_PBR))]
 
 
-# Blender's exporter
+# The following functions concern Blender's exporter.
 
 
 def exported(*steps):
-    """Returns Blender's export with some changes: functions of the sockets, which give inputs of OpenPBR."""
+    """Returns Blender's export with some changes. A change is a function of the sockets that returns inputs of
+    OpenPBR."""
     def version(values):
         shader, inputs = in_use.shader_and_values((PRINCIPLED, OPEN_PBR), values)
         for step in steps:
@@ -162,7 +166,7 @@ def metal_of_another_level(values):
     return values["metallic"] > 0 and values["specular_ior_level"] != 0.5
 
 
-# The migration script of simulation assets
+# The following functions concern the migration script of simulation assets.
 
 
 PREVIEW_DEFAULTS = {"diffuseColor": (0.18,) * 3, "emissiveColor": (0.0,) * 3, "metallic": 0.0, "roughness": 0.5, "clearcoat": 0.0,
@@ -170,13 +174,13 @@ PREVIEW_DEFAULTS = {"diffuseColor": (0.18,) * 3, "emissiveColor": (0.0,) * 3, "m
 
 
 def migrated(values):
-    """Does what the script does with a UsdPreviewSurface alone: it has no row for clearcoat, and no luminance."""
+    """Converts like the script, which only reads UsdPreviewSurface. It has no row for clearcoat, and no luminance."""
     names = {new: old for new, old in in_use.OPEN_PBR_OF_USD.items() if not new.startswith("coat")}
     return shaders.model_shader(OPEN_PBR), in_use.copied(names, {**PREVIEW_DEFAULTS, **values})
 
 
 def migrated_and_changed(values):
-    """Runs the lines of the page on what the script gives."""
+    """Runs the lines of the page on the script's result."""
     shader, inputs = migrated(values)
     lines = {}
     exec(block("simready-openpbr.md", "coat_and_emission"), lines)
@@ -229,7 +233,7 @@ def changes_of(page, translations):
             for one in (to_open_pbr, from_open_pbr, (OPEN_PBR, USD + "_specular"))]}[page]()
 
 
-MORE = {"materialx-anisotropy.md": 3, "materialx-sheen.md": 5}  # times as many materials, because these rows have few of them
+MORE = {"materialx-anisotropy.md": 3, "materialx-sheen.md": 5}  # factor for pages whose rows concern few materials
 NAMES = ("blender-materialx.md", "simready-openpbr.md", *GRAPHS.values(), "materialx-usd.md")
 
 
@@ -239,7 +243,7 @@ def drawn(page, count):
 
 
 class Measurement:
-    """The errors of random materials, in which each picture is rendered once."""
+    """Measures the errors of random materials. Each picture is rendered only once."""
 
     def __init__(self, seed, count):
         self.seed, self.count, self.sources, self.found = seed, count, {}, {}

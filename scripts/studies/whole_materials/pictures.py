@@ -1,4 +1,4 @@
-"""Pictures of materials under the lights of the judgement, and the errors between them."""
+"""Renders materials under the lights of the judgement, and computes the errors between pictures."""
 import functools
 
 import numpy as np
@@ -7,9 +7,9 @@ import materialx_shaders as shaders
 from whole_materials import principled
 
 RESOLUTION = 128
-ANGLES = (0, 30, 60, 90)  # of single lights, to the right; a fifth one stands 45 degrees above
+ANGLES = (0, 30, 60, 90)  # angles of the single lights to the right; a fifth light is 45 degrees above
 ENVIRONMENTS, ENVIRONMENT_LIGHTS = 2, 12
-ENVIRONMENT_SEED = 68  # environments are the same in every run, because materials are what is drawn
+ENVIRONMENT_SEED = 68  # environments are the same in every run, because only the materials are random
 
 
 def single_lights():
@@ -33,7 +33,7 @@ def environments():
 
 
 class Stage:
-    """Camera and lights. Both models of a direction are rendered on the same one."""
+    """Holds camera and lights. Both models of a direction are rendered on the same stage."""
 
     def __init__(self, camera, move, resolution=RESOLUTION):
         self.camera, self.move, self.resolution = camera, move, resolution
@@ -52,7 +52,7 @@ class Stage:
 
 @functools.cache
 def stage(source, resolution=RESOLUTION):
-    """Returns the stage for a source model: Cycles' worker has point lights only."""
+    """Returns the stage for a source model. Cycles' worker only has point lights."""
     if source == "principled":
         return Stage(principled.far_camera(), principled.far_points, resolution)
     return Stage(shaders.Camera(), lambda lights: lights, resolution)
@@ -60,7 +60,7 @@ def stage(source, resolution=RESOLUTION):
 
 @functools.cache
 def shader_of(model):
-    """Returns what renders a model. Principled needs Blender, and raises Missing without."""
+    """Returns an object that renders a model. For Principled it needs Blender, and otherwise raises Missing."""
     return principled.Principled() if model == "principled" else shaders.model_shader(model)
 
 
@@ -81,7 +81,7 @@ def display_error(source, other):
 
 
 def errors(source, other):
-    """Returns the two errors of pictures `under_both`."""
+    """Returns the two errors of pictures, which are under both kinds of lights."""
     return {"linear": relative_error(source[0], other[0]), "display": display_error(source[1], other[1])}
 
 

@@ -1,4 +1,4 @@
-"""Pictures of Blender's Principled BSDF: a conversation with the worker of Cycles (compiler/adapters/PROTOCOL.md)."""
+"""Renders pictures of Blender's Principled BSDF by the worker of Cycles (compiler/adapters/PROTOCOL.md)."""
 import json
 import math
 import os
@@ -26,7 +26,7 @@ def python_of_blender():
 
 
 class Principled:
-    """A worker process that renders the Principled BSDF. It has the method `render` of a Shader."""
+    """Runs a worker process that renders the Principled BSDF. Like a Shader, it has a method `render`."""
 
     def __init__(self):
         python = python_of_blender()
@@ -45,7 +45,7 @@ class Principled:
             self.process.stdin.write(json.dumps({"id": self.number, **request}) + "\n")
             self.process.stdin.flush()
             line = self.process.stdout.readline()
-            while line and not line.startswith("{"):  # a banner
+            while line and not line.startswith("{"):  # skips a banner
                 line = self.process.stdout.readline()
         except BrokenPipeError:
             line = ""
@@ -69,7 +69,8 @@ class Principled:
         return picture
 
     def render(self, values, lights, resolution, camera):
-        """Returns the picture under point lights: light adds, so it is the sum of pictures of one light each."""
+        """Returns the picture under point lights. Light adds up, so this is the sum of pictures with one light each.
+        """
         assert all(light.kind == shaders.POINT for light in lights)
         total = np.zeros((resolution, resolution, 3))
         for light in lights:
@@ -82,11 +83,11 @@ class Principled:
 
 
 def far_camera():
-    """Returns a camera so far away that it is nearly orthographic, but near enough for Blender's clipping."""
+    """Returns a camera so far away that it is almost orthographic, but close enough for Blender's clipping."""
     return shaders.Camera(50.0, math.degrees(math.asin(1 / 50)))
 
 
 def far_points(lights, distance=50.0):
-    """Returns point lights that light the sphere nearly as directional lights do."""
+    """Returns point lights that light the sphere almost like directional lights."""
     return [shaders.Light(shaders.POINT, tuple(distance * np.asarray(one.vector) / np.linalg.norm(one.vector)),
                           tuple(distance ** 2 * np.asarray(one.color))) for one in lights]

@@ -1,9 +1,10 @@
-"""The floor: the parameters of the target that give the closest pictures, found by Levenberg and Marquardt's method."""
+"""Finds the parameters of the target that give the closest pictures, by Levenberg and Marquardt's method. No
+translation can be better."""
 import numpy as np
 
 RESOLUTION, STEPS, DIFFERENCE = 48, 12, 2e-3
 
-# Inputs that are searched, with their range. Colours have three values each.
+# These inputs are searched, with their ranges. Colours have three values each.
 INPUTS = {
     "open_pbr_surface": {
         "base_color": (0, 1), "base_metalness": (0, 1), "base_diffuse_roughness": (0, 1), "specular_weight": (0, 1),
@@ -26,7 +27,8 @@ INPUTS = {
 }
 
 
-# A weight of 0 hides the slopes of its lobe, so a search also starts where every lobe is a little there.
+# At weight 0, the derivatives by the other inputs of a lobe are 0. A search therefore also starts where every lobe
+# has a small weight.
 STARTS = {
     "open_pbr_surface": [{"base_metalness": 0.4, "coat_weight": 0.3, "coat_roughness": 0.3, "fuzz_weight": 0.2, "fuzz_roughness": 0.7,
                           "specular_roughness": 0.5, "base_diffuse_roughness": 0.2}],
@@ -41,7 +43,7 @@ STARTS = {
 
 
 class Vector:
-    """Inputs of a shader as one vector of numbers."""
+    """Packs inputs of a shader into one vector of numbers."""
 
     def __init__(self, inputs, types):
         self.inputs, self.types = inputs, types
@@ -63,7 +65,8 @@ class Vector:
 
 
 def minimise(residuals, start, low, high, steps=STEPS):
-    """Returns the vector with the least sum of squared residuals that steps inside the range reach from `start`."""
+    """Returns the vector with the least sum of squared residuals. The search steps from `start` and stays inside the
+    range."""
     x, damping = start, 1e-3
     now = residuals(x)
     for _ in range(steps):

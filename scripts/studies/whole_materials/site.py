@@ -1,4 +1,5 @@
-"""A page to look at: each material as it is, as the translation in use makes it, and as ours does, with the errors below."""
+"""Writes a web page that shows each material as it is, as the translation in use makes it, and as ours does, with the
+errors below."""
 import html
 import json
 import pathlib
@@ -19,9 +20,10 @@ MOST_BYTES = 15_000_000
 
 
 def studio():
-    """Returns the lights of the pictures, in sets for one pass each: a soft box, a strip at the right, and dim light from all around.
+    """Returns the lights of the pictures, in sets for one pass each: a soft box, a strip at the right, and dim light
+    from all directions.
 
-    Many lights stand for a large one: they are closer to each other than the highlights of documents are wide.
+    Many small lights represent a large light. They are closer together than the width of the highlights of documents.
     """
     box = [((-0.95 + 0.13 * x, 0.3 + 0.13 * y, 1.1), (0.021,) * 3) for x in range(8) for y in range(6)]
     strip = [((1.6, -0.8 + 0.16 * y, 0.3), (0.034, 0.04, 0.05)) for y in range(11)]
@@ -32,7 +34,8 @@ def studio():
 
 
 def filtered(row, above, channels):
-    """Returns a row of a PNG file with the filter that leaves the smallest differences: none, left, above, or both by Paeth."""
+    """Returns a row of a PNG file with the filter that gives the smallest differences: none, left, above, or Paeth's
+    filter of left and above."""
     left, corner = (np.concatenate([np.zeros(channels, int), one[:-channels]]) for one in (row, above))
     guess = left + above - corner
     near = np.abs(np.stack([guess - one for one in (left, above, corner)])).argmin(axis=0)
@@ -56,7 +59,8 @@ def png(pixels):
 
 
 def portrait(stage, shader, values, side=SIDE):
-    """Returns the pixels of a sphere in the studio, from 0 to 1: display values, and how much of each pixel the sphere covers."""
+    """Returns the pixels of a sphere in the studio, from 0 to 1: display values, and how much of each pixel the
+    sphere covers."""
     linear = sum(shader.render(values, stage.move(lights), side * SAMPLES, stage.camera) for lights in studio())
     covered = pictures.inside(side * SAMPLES).astype(float)[..., None]
     small = [part.reshape(side, SAMPLES, side, SAMPLES, -1).mean(axis=(1, 3)) for part in (linear, covered)]
@@ -64,7 +68,7 @@ def portrait(stage, shader, values, side=SIDE):
 
 
 def portrait_file(stage, shader, values):
-    """Returns the bytes of a PNG file of a sphere on a transparent ground."""
+    """Returns the bytes of a PNG file of a sphere on a transparent background."""
     return png(np.round(255 * portrait(stage, shader, values)).astype(np.uint8))
 
 

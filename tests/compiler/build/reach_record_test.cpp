@@ -1,4 +1,4 @@
-// The recorded excess of fits: it counts as long as the fit has not changed.
+// This file tests the recorded excess of fits. A record is used as long as its fit has not changed.
 #include "build/reach_record.hpp"
 
 #include <catch2/catch.hpp>

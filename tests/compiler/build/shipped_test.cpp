@@ -1,4 +1,4 @@
-// The converters that ship: the figures on their cards against their tables.
+// This file tests the converters that ship: it compares the figures on their cards with their tables.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -61,14 +61,15 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
   for (const std::string& source : hub)
     for (const std::string& target : hub)
       if (source != target) CHECK(measured.count({source, target}) == 1);
-  // Every other model has converters to and from the hub.
+  // Every model that is not in the hub must have converters to and from the hub.
   std::set<std::string> real;
   for (const auto& [source, target] : measured) {
     if (!is_in(hub, source)) real.insert(source);
     if (!is_in(hub, target)) real.insert(target);
   }
   for (const std::string& model : real) {
-    // Lobes of an exponent go to GGX without Fresnel alone, and from there on (docs/decisions/060).
+    // Lobes of an exponent are only converted to GGX without Fresnel, and from there to other models
+    // (docs/decisions/060).
     if (model.starts_with("legacy/") || model.starts_with("mujoco/")) {
       CHECK(measured.count({model, "mitsuba/ggx-plain"}) == 1);
       continue;
@@ -108,7 +109,7 @@ TEST_CASE("shipped: fits are of their tables") {
   }
 }
 
-// By lights and materials that had no part in the fit.
+// These errors are measured with lights and materials that were not used for the fit.
 TEST_CASE("shipped: pictures are nearer to the source's than those of copied numbers") {
   int judged = 0;
   for (const Fit& fit : shipped()) {
@@ -121,8 +122,8 @@ TEST_CASE("shipped: pictures are nearer to the source's than those of copied num
   CHECK(judged >= 42);
 }
 
-// Without pictures of both models the rows judge: within one part in fifty, which spheres of these renderers
-// do not show.
+// Some renderers have no pictures of both models, so rows judge the fit. A difference of one part in fifty is
+// invisible on spheres of these renderers.
 TEST_CASE("shipped: fits without pictures follow the rows of their tables") {
   for (const Fit& fit : shipped()) {
     if (!is_measured(fit) || fit.pictures) continue;
@@ -189,7 +190,7 @@ TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more th
         worst.specular = std::max(worst.specular, std::fabs(wider.specular - by_alpha.specular));
         by_alpha = wider;
       }
-      // In finer steps below 0.01, where there is next to no light and forms change fast.
+      // Steps are finer below 0.01, where there is hardly any light and forms change fast.
       for (double moving = 0.0; moving <= 1.0; moving += moving < 0.01 ? 0.05 * kStep : kStep) {
         const MappedTexel brighter = evaluate_fit(fit, alpha, moving);
         worst.alpha = std::max(worst.alpha, std::fabs(brighter.alpha - by_specular.alpha));

@@ -1,4 +1,4 @@
-// The emitter's parts: templates, layout and determinism.
+// This file tests the parts of the emitter: templates, layout and determinism.
 #include "emit/emit.hpp"
 
 #include <stdexcept>
@@ -64,7 +64,7 @@ TEST_CASE("emit: warps are headers of whole materials") {
   fit.tool_version = "0";
   const std::string header = emit_header(fit);
   CHECK(emit_header(fit) == header);
-  CHECK(header.size() < 1000000);  // 229 KB of codes as numbers
+  CHECK(header.size() < 1000000);  // its codes take 229 KB as numbers
   for (const std::string part :
        {"kId = \"leaf\"", "kSourceModel = \"mitsuba/ggx\"", "kTargetModel = \"cycles/ggx\"",
         "kTemplateModel = kTargetModel", "kCopyRmsError = 0.0123", "// source: brown_leaf", "MIT-0",

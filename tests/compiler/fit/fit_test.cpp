@@ -1,4 +1,4 @@
-// Fits of tables: which rows train, what is recorded, and names that are refused.
+// This file tests fits of tables: which rows train, what is recorded, and names that are refused.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ TEST_CASE("fit: the held-out rows judge and do not train") {
   const RowSplit split = split_rows(table, table_domain(table), 3, 0.2);
   CHECK(split.training.size() == 120);
   CHECK(split.held_out.size() == 30);
-  // Changes the rows that seed 3 holds out: the fit must stay the same, the errors must not.
+  // Only the rows that seed 3 holds out are changed. The fit must stay the same, but its errors must change.
   for (TableRow& row : table.rows)
     for (const TableRow& clamped : split.held_out)
       if (row.line == clamped.line) row.specular2 += 0.01;

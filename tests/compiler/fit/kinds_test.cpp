@@ -1,5 +1,5 @@
-// What every kind of fit promises: it follows a surface between its rows, whatever the number of threads,
-// tells its progress, and of unusual tables it gives finite values or says what is wrong.
+// This file tests what every kind of fit must do. It follows a surface between its rows, with any number of
+// threads, and reports its progress. From an unusual table it gives finite values or an error.
 #include "fit/kinds.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Rows rows_of(int widths = 8, int speculars = 5) {
   return rows;
 }
 
-// The outputs or inputs of every row changed.
+// Returns rows of which `change` has changed each.
 Rows changed(const std::function<void(TableRow&)>& change, Rows rows = rows_of()) {
   std::for_each(rows.begin(), rows.end(), change);
   return rows;
@@ -61,7 +61,7 @@ Regression fitted(const FitKind& kind, const Rows& rows, unsigned jobs = 0,
   return kind.fit(rows, Domain{{0.05, 1.0}, {0.0, 0.95}}, options, progress);
 }
 
-// Of both outputs at `truth`.
+// Returns the largest error of both outputs at the rows `truth`.
 double largest_error(const MappingKind& mapping, const Rows& truth) {
   double largest = 0.0;
   for (const TableRow& row : truth) {
@@ -81,14 +81,14 @@ TEST_CASE("fit kinds: a smooth surface is followed between the rows, on any numb
     const Regression one = fitted(kind, rows_of(), 1), many = fitted(kind, rows_of(), 3);
     CHECK(many.mapping == one.mapping);
     CHECK(many.method == one.method);
-    // Support vectors need more rows (svr_test); a dozen seconds of their search.
+    // Support vectors need more rows (svr_test) and a longer search to be as accurate.
     CHECK(largest_error(one.mapping, rows_of(23, 11)) < (kind.name == "svr" ? 1.5e-2 : 4e-3));
   }
 }
 
 TEST_CASE("fit kinds: progress rises to 1, and what it throws ends the fit", "[slow]") {
   for (const FitKind& kind : kFitKinds) {
-    if (kind.name == "parametric") continue;  // takes no time
+    if (kind.name == "parametric") continue;  // too fast to report progress
     INFO(kind.name);
     std::mutex mutex;
     std::vector<double> shares;
@@ -108,7 +108,8 @@ TEST_CASE("fit kinds: progress rises to 1, and what it throws ends the fit", "[s
         if (has_thrown) throw Error(ErrorKind::kInterrupted, "enough");
       };
       CHECK_THROWS_WITH(fitted(kind, rows_of(), 2, stop), "enough");
-      if (kind.name == "mlp") CHECK(calls_after == 0);  // others may have been about to
+      // threads of other kinds may still have called it
+      if (kind.name == "mlp") CHECK(calls_after == 0);
     }
   }
 }
@@ -138,7 +139,8 @@ TEST_CASE("fit kinds: unusual tables give finite values, or are refused", "[slow
   };
   for (const UnusualTable& table : tables)
     for (const FitKind& kind : kFitKinds) {
-      if (table.what == "not a number" && kind.name == "parametric") continue;  // Ceres logs pages of it
+      // Ceres would log pages of text
+      if (table.what == "not a number" && kind.name == "parametric") continue;
       INFO(table.what << ", " << kind.name);
       if (table.refused_by.find(kind.name) != std::string::npos)
         CHECK_THROWS_WITH(fitted(kind, table.rows), Catch::Contains(table.because));

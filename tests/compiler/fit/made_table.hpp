@@ -1,5 +1,5 @@
-// Tables made from a known parametric form, and their fits. No renderer knows their models: fits would
-// compare pictures, which takes nine seconds.
+// This file makes tables from a known parametric form, and fits of them. No renderer knows their models,
+// because otherwise fits would compare pictures, which takes nine seconds.
 #pragma once
 
 #include <string>
@@ -38,7 +38,7 @@ inline Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string&
   return fit_table(table, table_text(table), options).fit;
 }
 
-// The paper's form.
+// Returns a mapping of the paper's form.
 inline Parametric paper_form(const std::vector<double>& quartic, const AlphaCurve& slope) {
   return {{quartic}, {{1, slope}}};
 }

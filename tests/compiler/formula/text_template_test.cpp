@@ -1,4 +1,4 @@
-// Templates of generated code: holes, and their lines.
+// This file tests templates of generated code: holes, and the lines that contain them.
 #include "formula/text_template.hpp"
 
 #include <stdexcept>

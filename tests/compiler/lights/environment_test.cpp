@@ -1,4 +1,4 @@
-// Spheres under environments: the maps, their light, and the study that uses them.
+// This file tests spheres under environments: the maps, their light, and the study that uses them.
 #include "lights/environment.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Environment constant_environment(float radiance) {
   return {"constant", {8, 4, 3, std::vector<float>(8 * 4 * 3, radiance)}};
 }
 
-// Light from a cap of 10 degrees about a direction only.
+// Returns an environment whose only light comes from a cap of 10 degrees around a direction.
 Environment cap_environment(const Direction& middle) {
   Environment environment{"cap", {128, 64, 3, {}}};
   for (int row = 0; row < 64; ++row)
@@ -52,7 +52,7 @@ SpherePictures render(const Environment& environment, const SphereMaterial& mate
   return render_spheres(pyramid, {&material, 1}, sampling);
 }
 
-// The mean difference of pixels of a row from the mean of their neighbours.
+// Returns the mean difference of the pixels in a row from the mean of their neighbours.
 double roughness_of(const SpherePictures& pictures) {
   const std::vector<float> radiance = pictures.radiance(0, 0);
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
@@ -67,7 +67,7 @@ double roughness_of(const SpherePictures& pictures) {
   return sum / static_cast<double>(count);
 }
 
-// The centroid of the light in the picture, in pixels right and up from its middle.
+// A Centroid is the centre of the light in the picture, in pixels to the right of and above its middle.
 struct Centroid {
   double right, up;
 };
@@ -85,8 +85,8 @@ Centroid centroid(const SpherePictures& pictures) {
   return {right / sum, up / sum};
 }
 
-// Returns the reflected share of uniform light, seen from `cos_view`. The midpoint rule over half vectors,
-// with tan(theta_half) = alpha * t / (1 - t), resolves narrow lobes.
+// Returns the fraction of uniform light that is reflected, seen from `cos_view`. It uses the midpoint rule
+// over half vectors. The substitution tan(theta_half) = alpha * t / (1 - t) resolves narrow lobes.
 double directional_albedo(const SphereMaterial& material, double cos_view) {
   const double sin_view = std::sqrt(1.0 - cos_view * cos_view);
   constexpr int kSteps = 1500, kTurns = 400;
@@ -95,7 +95,7 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
     const double t = (i + 0.5) / kSteps;
     const double tangent = material.alpha * t / (1.0 - t);
     const double cos_half = 1.0 / std::sqrt(1.0 + tangent * tangent), sin_half = tangent * cos_half;
-    // d(theta) = cos^2(theta) d(tan theta)
+    // This uses d(theta) = cos^2(theta) d(tan theta).
     const double step = cos_half * cos_half * material.alpha / ((1.0 - t) * (1.0 - t)) / kSteps;
     for (int j = 0; j < kTurns; ++j) {
       const double turn = 2.0 * pi * (j + 0.5) / kTurns;
@@ -106,7 +106,7 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
       const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha,
                                       {cos_light, cos_view, cos_half, cos_view_half, 2.0 + 2.0 * between,
                                        2.0 * cos_light * cos_view - between});
-      // d(light) = 4 cos(view, half) d(half)
+      // This uses d(light) = 4 cos(view, half) d(half).
       sum += (lobe.base + material.specular * lobe.slope) * cos_light * 4.0 * cos_view_half * sin_half *
              step * 2.0 * pi / kTurns;
     }
@@ -121,7 +121,7 @@ std::vector<EnvironmentComparison> comparisons_of(const EnvironmentsResult& resu
   return chosen;
 }
 
-// Means over the comparisons of one method; `energy` is the mean of the absolute values.
+// Returns means over the comparisons of one method. `energy` is the mean of the absolute values.
 EnvironmentComparison means_of(const EnvironmentsResult& result, Method method) {
   EnvironmentComparison mean;
   const std::vector<EnvironmentComparison> chosen = comparisons_of(result, method);
@@ -171,8 +171,8 @@ TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   };
   const Centroid behind_camera = shown({0.0, 0.0, 1.0});
   CHECK(std::hypot(behind_camera.right, behind_camera.up) < 0.1);
-  // Light from the side is reflected where the normal halves the angle to the camera: 37.3 degrees from the
-  // axis, which the picture shows at 0.777 of its half width.
+  // A surface reflects light from the side if its normal halves the angle to the camera. This is at 37.3
+  // degrees from the axis, or 0.777 of the picture's half width.
   const Centroid right = shown({1.0, 0.0, 0.0});
   CHECK(right.right == Approx(0.777 * 16.5).epsilon(0.03));
   CHECK(std::fabs(right.up) < 0.1);
@@ -202,8 +202,8 @@ TEST_CASE("lit sphere: under uniform light it shows the directional albedo", "[s
 TEST_CASE("lit sphere: microfacets without absorption reflect at most the light that they receive",
           "[slow]") {
   const Environment even = constant_environment(1.0f);
-  // Mitsuba combines Ashikhmin-Shirley's distribution with Beckmann's shadowing, which reflects 6 % too much
-  // at the rim.
+  // In Mitsuba, Ashikhmin-Shirley's distribution has Beckmann's shadowing, which reflects 6 % too much at the
+  // rim.
   for (const std::string name : {"mitsuba/beckmann", "mitsuba/ggx"})
     for (const double alpha : {0.1, 0.4, 1.0}) {
       const SpherePictures pictures = render(even, {builtin_brdf(name), alpha, 1.0}, 24, 1024);
@@ -231,7 +231,7 @@ TEST_CASE("radiance pyramid: a map of any size keeps its light at every level") 
   const RadiancePyramid pyramid({&odd, 1}, 32);
   CHECK_FALSE(pyramid.lamps(0).empty());
   float radiance[3];
-  // Compares the mean over all directions, by the midpoint rule; bilinear lookup moves a little light at the
+  // Compares the mean over all directions, by the midpoint rule. Bilinear lookup moves a little light at the
   // poles.
   for (const double solid_angle : {1e-6, 0.05, 0.3}) {
     double sum = 0.0, weights = 0.0;
@@ -314,7 +314,7 @@ TEST_CASE("environment: the built-in ones are finite light, and the clear sky is
   }
   const std::vector<float>& sky = environments[0].map.values;
   const auto brightest = static_cast<std::size_t>(std::max_element(sky.begin(), sky.end()) - sky.begin()) / 3;
-  // 40 degrees above the horizon, 120 degrees to the right of the middle.
+  // The sun is 40 degrees above the horizon, and 120 degrees to the right of the middle.
   CHECK(static_cast<double>(brightest / 256) / 128.0 == Approx(0.5 - 40.0 / 180.0).margin(0.01));
   CHECK(static_cast<double>(brightest % 256) / 256.0 == Approx(0.5 + 120.0 / 360.0).margin(0.01));
 }
@@ -323,17 +323,17 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ggx", "mitsuba/ggx"}};
   const EnvironmentsResult result = study_environments(options);
-  // 2 alphas, 3 environments; copy and three objectives.
+  // There are 2 alphas and 3 environments, copied numbers and three objectives.
   REQUIRE(result.comparisons.size() == 24);
   const EnvironmentComparison copy = means_of(result, Method::kCopy);
   CHECK(copy.rmse == 0.0);
   CHECK(copy.ssim == Approx(1.0).epsilon(1e-6));
   CHECK(copy.energy == 0.0);
-  // A match finds alpha again to 2e-7.
+  // A match of a model with itself finds its alpha to 2e-7.
   CHECK(means_of(result, Method::kNatural2).rmse < 1e-3);
   CHECK_THAT(environments_csv(options, result),
              Catch::Contains("# noise_percent: ") && !Catch::Contains("noise_percent: 0\n"));
-  CHECK(comparisons_of(result, Method::kShipped).empty());  // no fit
+  CHECK(comparisons_of(result, Method::kShipped).empty());  // there is no fit
 }
 
 TEST_CASE(
@@ -356,7 +356,7 @@ TEST_CASE("study environments: no method has less than the least error, and copi
           "[slow]") {
   EnvironmentsOptions options = small_study();
   options.alphas = {0.3};
-  options.resolution = 48;  // that of the search
+  options.resolution = 48;  // the resolution of the search
   options.samples = 256;
   options.least_error = true;
   const EnvironmentsResult result = study_environments(options);
@@ -385,7 +385,7 @@ TEST_CASE("study environments: a fit is used as shipped") {
     CHECK(conversion.target_alpha == Approx(expected.alpha));
     CHECK(conversion.target_specular == Approx(expected.specular));
   }
-  // Fitted to pictures under other lights than these; the objective's own search is by one light.
+  // The shipped fit was chosen by pictures under other lights. The objective's match uses a single light.
   CHECK(means_of(result, Method::kShipped).rmse < means_of(result, Method::kNatural2).rmse + 0.1);
 }
 

@@ -1,4 +1,4 @@
-// Fits one after another as one fit; the way back; there and back again.
+// This file tests chains of fits that become one fit, inverses of fits, and round trips.
 #include "lower/chain.hpp"
 
 #include <cmath>
@@ -29,14 +29,14 @@ Fit fit_of(const std::string& source, const std::string& target, Parametric form
   return fit;
 }
 
-// alpha2 = width alpha1 + bend alpha1^2, specular2 = slope specular1 + offset.
+// Returns alpha2 = width alpha1 + bend alpha1^2, specular2 = slope specular1 + offset.
 Parametric straight(double width, double bend, double slope, double offset = 0.0) {
   Parametric form{{{width, bend}}, {{1, {slope, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   if (offset != 0.0) form.specular.insert(form.specular.begin(), {0, {offset, 0.0, 0.0, 0.0, 0.0, 0.0}});
   return form;
 }
 
-// Target alpha grows with specular, as where a rim moves the match.
+// Returns a mapping whose target alpha grows with specular, as it does if a rim affects the match.
 Parametric leaning() { return {{{0.8, 0.1}, {0.05}}, {{1, {0.7, 0.2, 1.5, 0.0, 0.0, 0.0}}}}; }
 
 }  // namespace
@@ -117,9 +117,10 @@ TEST_CASE("chain: against its steps, with the rules of their domains") {
   CHECK(alpha_depends_on_specular(chain.mapping));
   CHECK_FALSE(is_proportional(chain.mapping));
   const ChainDifference difference = difference_from_steps(chain, {a, b});
-  CHECK(difference.alpha < 4e-3);  // a step of an 8-bit map
+  CHECK(difference.alpha < 4e-3);  // one step of an 8-bit map
   CHECK(difference.grey_specular < 1e-4);
-  // The width of a dark channel lags behind that of the largest: 0.05 of specular at a slope of 0.2 or so.
+  // The second step uses the largest channel of its input, but the chain uses the largest channel of the
+  // source. The widths of dark channels therefore differ.
   CHECK(difference.color_specular > 1e-4);
   CHECK(difference.color_specular < 0.05);
 }
@@ -140,8 +141,8 @@ TEST_CASE("inverse: back to where it came from, and nowhere else") {
       CHECK(back->alpha == Approx(alpha).epsilon(1e-9));
       CHECK(back->specular == Approx(specular).epsilon(1e-9));
     }
-  CHECK_FALSE(inverse(fit, {0.99, 0.1}).has_value());   // wider than any
-  CHECK_FALSE(inverse(fit, {0.001, 0.1}).has_value());  // narrower
+  CHECK_FALSE(inverse(fit, {0.99, 0.1}).has_value());   // wider than any result of the fit
+  CHECK_FALSE(inverse(fit, {0.001, 0.1}).has_value());  // narrower than any result of the fit
   CHECK_FALSE(inverse(fit, {0.3, 0.9}).has_value());    // brighter than the width allows
   fit.mapping = straight(1.0, 0.0, 0.5, 0.1);
   CHECK_FALSE(inverse(fit, {0.3, 0.05}).has_value());  // darker than black

@@ -1,4 +1,4 @@
-// Fit files: exact round trip, and every complaint with its place.
+// This file tests fit files: exact round trips, and every error with its place.
 #include <cmath>
 
 #include <catch2/catch.hpp>

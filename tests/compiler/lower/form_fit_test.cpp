@@ -1,4 +1,4 @@
-// The compact form: what it gives, and how its numbers are found.
+// This file tests the compact form: its results, and how its numbers are found.
 #include "lower/form_fit.hpp"
 
 #include <cmath>

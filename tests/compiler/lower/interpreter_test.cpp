@@ -1,4 +1,5 @@
-// The reference interpreter against the formulas as the paper prints them, and the domain rule.
+// This file tests the reference interpreter against the formulas as printed in the paper, and the domain
+// rule.
 #include "lower/interpreter.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ Fit ward_to_as() {
   Fit fit;
   fit.id = "w_to_a";
   fit.domain = {{0.05, 1.0}, {0.0, 0.5}};
-  // Appendix A with the erratum of its cubic coefficient; k in the form of fit.hpp.
+  // This is appendix A with the erratum of its cubic coefficient. k is written in the form of fit.hpp.
   const double c1 = 512.75, c2 = 0.00057, c3 = 0.398, c4 = 3.12, c0 = -512.13;
   fit.mapping =
       Parametric{{{1.04, -0.388, -0.332, 0.25}}, {{1, {c0 + c1 + c3, -c1 * c2, c2, -c3 * c4, c4, 0.0}}}};
@@ -102,7 +103,7 @@ TEST_CASE("interpreter: target alpha is that of the largest channel") {
   std::array<double, 3> out{};
   const double alpha = evaluate_texel(fit, 0.5, std::array{0.1, 0.4, 0.2}, out);
   CHECK(alpha == Approx(evaluate_mapping(fit.mapping, 0.5, 0.4).alpha));
-  // Beyond the domain it is that of the edge.
+  // Beyond the domain, the result is the same as at the edge.
   CHECK(evaluate_texel(fit, 0.5, std::array{0.1, 4.0, 0.2}, out) ==
         Approx(evaluate_mapping(fit.mapping, 0.5, 0.5).alpha));
 }
@@ -117,7 +118,7 @@ TEST_CASE("interpreter: outside the domain the width is clamped and color is kep
   CHECK(alpha == Approx(evaluate_mapping(fit.mapping, 1.0, 0.0).alpha));
   CHECK(out[0] / out[1] == Approx(2.0));
   CHECK(out[0] / out[2] == Approx(20.0));
-  // Below the domain both widths end at 0 together.
+  // Below the domain, both widths go to 0 together.
   CHECK(evaluate_texel(fit, 0.0, specular, out) == 0.0);
   CHECK(evaluate_texel(fit, 0.01, specular, out) ==
         Approx(0.2 * evaluate_mapping(fit.mapping, 0.05, 0.0).alpha));

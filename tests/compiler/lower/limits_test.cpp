@@ -1,4 +1,4 @@
-// The largest fits that are read and written.
+// This file tests the size limits of fits that are read and written.
 #include "lower/limits.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using namespace remap;
 
 namespace {
 
-// `oversize` of a fit with this mapping; writing agrees.
+// Returns `oversize` of a fit with this mapping. Writing the fit must agree with it.
 std::string refusal(const MappingKind& mapping) {
   Fit fit = example_fit();
   fit.mapping = mapping;

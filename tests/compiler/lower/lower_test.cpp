@@ -1,4 +1,4 @@
-// Lowering: what a form says of its distance to a mapping holds, or it is refused.
+// This file tests lowering. A form must stay within the distance to a mapping that it claims, or be refused.
 #include "lower/lower.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Fit fit_of(const MappingKind& mapping, const Domain& domain) {
   return fit;
 }
 
-// The largest difference to the mapping on random texels, as shares of the bounds.
+// Returns the largest difference from the mapping on random texels, as a fraction of the bounds.
 Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -76,7 +76,7 @@ Parametric line() { return {{{1.0}}, {{1, {0.8, 0.0, 0.0, 0.0, 0.0, 0.0}}}}; }
 
 TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow][campaign]") {
   for (const std::string& kind : random_kinds()) {
-    // Each takes four seconds. The first two of some kinds are refused.
+    // Each model takes four seconds. The first two models of some kinds are refused.
     const std::uint64_t first = is_full_campaign() ? 0 : 2;
     const int models = is_full_campaign() ? campaign_length(100) : 3;
     int met = 0;
@@ -99,7 +99,7 @@ TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow
     std::cout << kind << ": " << met << " of " << models << " lowered; worst error over bound " << worst.alpha
               << " and " << worst.specular << "\n";
     CHECK(met >= std::max(1, models / 5));
-    CHECK(worst.alpha > 0.2);  // bounds are no larger than they have to be
+    CHECK(worst.alpha > 0.2);  // bounds must not be much too large
   }
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("lower: what does not vanish with specular needs a domain above 0") {
 }
 
 TEST_CASE("lower: a spike between the samples is seen by the proof") {
-  // 1e-5 wide: the grid of samples, ten times coarser at least, sees next to nothing of it.
+  // The spike is 1e-5 wide. The grid of samples is at least ten times coarser, so hardly any sample hits it.
   CHECK_THROWS_WITH(lower(fit_of(one_gaussian(1e10, 0.41234567, 0.7), kLit)),
                     Catch::Contains("terms is proven within"));
 }

@@ -1,5 +1,5 @@
-// Taylor models contain the functions that they stand for: every proof of lowering stands on that. The oracle
-// is the same formula in long double, at points of random boxes.
+// This file tests that Taylor models contain the functions that they enclose, on which every proof of
+// lowering relies. The oracle is the same formula in long double, at points of random boxes.
 #include "lower/taylor.hpp"
 
 #include <cmath>
@@ -30,7 +30,7 @@ class Random {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
   double magnitude(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  // -1, 1, 0 or something between: a place in a box.
+  // Returns -1, 1, 0 or a number between: a place in a box.
   double place() {
     const double q = between(0.0, 1.0);
     return q < 0.1 ? -1.0 : q < 0.2 ? 1.0 : q < 0.25 ? 0.0 : between(-1.0, 1.0);
@@ -48,7 +48,8 @@ struct Box {
   }
 };
 
-// Of any width, from a point to one that reaches down to 0; centres from 1e-4 to 1, as alphas.
+// Returns a box of any width, from a point to a box that reaches down to 0. Centres are from 1e-4 to 1, like
+// alphas.
 Box random_box(Random* random) {
   Box box;
   box.centre = random->magnitude(1e-4, 1.0);
@@ -71,12 +72,13 @@ long double polynomial_at(const Taylor<2, N>& taylor, long double u, long double
   return sum;
 }
 
-// How many enclosures claimed something, and how many were close: within a millionth of what they bound.
+// Claims counts the enclosures with a finite bound, and among them those whose remainder is at most a
+// millionth of the bound.
 struct Claims {
   int made = 0, close = 0;
 };
 
-// Long double rounds as well: 1e-17 of what it adds up.
+// Long double has rounding errors, too: 1e-17 of the terms of a sum.
 template <typename T>
 bool contains(const T& enclosure, long double u, long double v, Exact expected) {
   const auto slack = 1e-17L * static_cast<long double>(enclosure.bound());
@@ -91,7 +93,7 @@ void count(const T& enclosure, Claims* claims) {
   if (enclosure.rest() <= 1e-6 * enclosure.bound()) ++claims->close;
 }
 
-// `function` takes any scalar.
+// `function` accepts any scalar.
 template <typename Function>
 void check_of_one(const Box& box, Random* random, Claims* claims, const Function& function) {
   const OneTaylor enclosure = function(OneTaylor::variable(0, box.centre, box.half));
@@ -228,7 +230,7 @@ TEST_CASE("taylor: whole models lie within their enclosures") {
 TEST_CASE("taylor: what has no bound claims none") {
   const OneTaylor around_zero = OneTaylor::variable(0, 0.1, 0.2);
   CHECK_FALSE(std::isfinite(reciprocal(around_zero).bound()));
-  // NaN and infinity stay in sight through every function.
+  // No function may hide NaN and infinity.
   for (const double wide : {1e308, std::numeric_limits<double>::infinity()}) {
     const OneTaylor x = OneTaylor::variable(0, 0.5, 0.25) * wide * 1e10;
     CHECK_FALSE(std::isfinite(x.bound()));

@@ -1,4 +1,4 @@
-// Analytic fits as files: round trips, and complaints that say where and what.
+// This file tests files of analytic fits: round trips, and errors that state where and what is wrong.
 #include <catch2/catch.hpp>
 
 #include "lower/fit_file.hpp"

@@ -1,5 +1,5 @@
-// Descriptions of translations: what the language says, and what it refuses. tests/oracles/materials.py
-// evaluates those that ship.
+// This file tests descriptions of translations: the meaning of the language, and what it refuses.
+// tests/oracles/materials.py evaluates the descriptions that ship.
 #include "materials/description.hpp"
 
 #include <catch2/catch.hpp>
@@ -94,7 +94,7 @@ TEST_CASE("materials: what ships is complete") {
   for (const Translation& translation : library.translations) {
     INFO(translation.id());
     CHECK_FALSE(translation.comment.empty());
-    // The lobes that every model has.
+    // Every model has roughness and a color.
     for (const char* word : {"oughness", "olor"})
       CHECK(std::any_of(translation.lines.begin(), translation.lines.end(), [&](const TranslationLine& line) {
         return line.statement.name.starts_with("target.") &&

@@ -1,4 +1,4 @@
-// Sweeps of renderers with unknown names, scales, light and laws of specular.
+// This file tests sweeps of renderers with unknown names, scales, light and laws of specular.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ SpecularResponse probe(const Renderer& renderer, const std::string& model,
 
 double squared(double level) { return level * level; }
 
-// A quadratic with a linear part, as in three.js: neither proportional nor affine.
+// Returns a quadratic with a linear part, as in three.js, which is neither proportional nor affine.
 double mixed(double level) { return 0.3 * level + 0.7 * level * level; }
 
 }  // namespace
@@ -38,7 +38,7 @@ TEST_CASE("sweep: a renderer with other names, scales and light is matched as if
     CHECK(comment(table, "light_accepted") == (light == 1.0 ? "" : "yes"));
     CHECK(std::stod(comment(table, "irradiance_scale")) == Approx(light).epsilon(1e-6));
     CHECK(comment(table, "diffuse_scale") == "1");
-    // The disguise divides Ward's alpha by 0.8 and multiplies its specular by 4.
+    // The disguised model divides Ward's alpha by 0.8 and multiplies its specular by 4.
     for (const TableRow& row : table.rows) {
       CHECK(row.status == (row.specular1 < 1.0 ? RowStatus::kOk : row.status));
       CHECK(row.specular2 == Approx(row.specular1 * 4.0).epsilon(1e-6));
@@ -82,7 +82,8 @@ TEST_CASE("sweep: one and three stages match unknown light, width, specular and 
       const Table table = sweep(BothRenderers(light), options);
       REQUIRE(table.has_diffuse);
       for (const TableRow& row : table.rows) {
-        // Interpolation between the nodes of the bank is exact to 1e-6, the search to its tolerances.
+        // Interpolation between the nodes of the bank is exact to 1e-6. The rest is the tolerance of the
+        // search.
         CHECK(row.specular2 == Approx(row.specular1 * 4.0).epsilon(1e-4));
         CHECK(row.alpha2 == Approx(row.alpha1 / 0.8).epsilon(1e-4));
         CHECK(row.diffuse2 == Approx(0.35).epsilon(1e-4));
@@ -209,7 +210,7 @@ TEST_CASE("sweep: a target that clamps ends at its knee, a source that clamps is
 }
 
 TEST_CASE("sweep: a target without a known law is matched") {
-  const auto inverse = [](double specular) {  // of mixed()
+  const auto inverse = [](double specular) {  // inverse of mixed()
     return (-0.3 + std::sqrt(0.09 + 2.8 * specular)) / 1.4;
   };
   const LawRenderer renderer("mitsuba/ward", {0.0, 1.0}, mixed);
@@ -217,7 +218,7 @@ TEST_CASE("sweep: a target without a known law is matched") {
   const Table table = sweep(renderer, sweep_options("mitsuba/ward", "disguised/law", "natural", samples, 48));
   CHECK(comment(table, "target_specular_law") == "other");
   for (const TableRow& row : table.rows) {
-    // The margin covers central differences of float pictures and the tolerances of the search.
+    // The margin allows for central differences of float pictures and for the tolerances of the search.
     CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-4));
     CHECK(row.specular2 == Approx(inverse(row.specular1)).epsilon(1e-4));
     CHECK(row.status == RowStatus::kOk);
@@ -297,7 +298,7 @@ TEST_CASE("black box: a diffuse lobe of another shape is no other light: an erro
   CHECK(match.scale > 1.1);
   CHECK(match.diffuse_error > 0.03);
   CHECK(match.accepted);
-  // What the rule is about: the same lobe, and yet another specular.
+  // This shows why the rule exists: the lobes are the same, but the match gives another specular.
   for (const TableRow& row : accepted.rows)
     if (row.specular1 > 0.1) CHECK(row.specular2 > 1.05 * row.specular1);
   REQUIRE(light_remark(match).has_value());

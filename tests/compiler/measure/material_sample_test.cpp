@@ -1,4 +1,4 @@
-// Random materials of many parameters, against equations (2) and (3) of Sztrajman et al. 2019.
+// This file tests random materials of many parameters against equations (2) and (3) of Sztrajman et al. 2019.
 #include "measure/material_sample.hpp"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST_CASE("material sample: the way back finds base color and metallic, by rende
   options.resolution = 32;
   options.searched = {"metallic"};
   options.grey = true;
-  // F0 of light dielectrics and above, so that equation (3) has a root between 0 and 1.
+  // This F0 is at least that of bright dielectrics, so that equation (3) has a root between 0 and 1.
   options.ranges["f0"] = {0.05, 0.3};
   options.ranges["diffuse"] = {0.4, 0.8};
   const MaterialTable table = sampled(options);

@@ -1,4 +1,4 @@
-// Lights and weights of an objective.
+// This file tests the lights and weights of an objective.
 #include "measure/objective.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace remap;
 
 namespace {
 
-// The loss of `natural-2`, from whole pictures and by its definition.
+// A NaturalLoss is the loss of `natural-2`, computed from whole pictures by its definition.
 class NaturalLoss {
  public:
   NaturalLoss(const Renderer& renderer, const Material& source, int side)
@@ -25,7 +25,7 @@ class NaturalLoss {
       weights_.push_back(std::pow(static_cast<double>(cosines[i]) / (source_[i] / brightest + 0.1), 2));
   }
 
-  // Relative to the power of the pixels.
+  // Returns the loss relative to the power of the pixels.
   double operator()(const Material& target) const { return of(picture_of(target), 5.0); }
   double of_pixels(const Material& target) const { return of(picture_of(target), 0.0); }
 

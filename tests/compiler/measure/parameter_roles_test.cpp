@@ -1,4 +1,5 @@
-// Models with more parameters than a sweep has roles, against equation (2) of Sztrajman et al. 2019.
+// This file tests models with more parameters than a sweep has roles, against equation (2) of Sztrajman et
+// al. 2019.
 #include "measure/parameter_roles.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +30,7 @@ TEST_CASE("renderer: a metallic material is the diffuse and F0 of equation (2)")
   const Scene scene{48, 1, {50.0, 3.0}};
   for (const std::string shape : {"ggx", "beckmann", "as"})
     for (const double metal : {0.0, 0.3, 1.0})
-      for (const double level : {0.375, 0.5, 1.0}) {  // 0.375: the 0.03 of the paper
+      for (const double level : {0.375, 0.5, 1.0}) {  // 0.375 gives the paper's 0.03
         std::vector<double> diffuse, f0;
         for (const double albedo : base) {
           diffuse.push_back(albedo * (1.0 - metal));
@@ -99,7 +100,7 @@ TEST_CASE("roles: the specular level of a black dielectric is a share of 8 %") {
 TEST_CASE("roles: a target takes roles as a source does") {
   SweepOptions options =
       sweep_options("mitsuba/ggx", "mitsuba/ggx-metallic", "natural", {{0.2, 0.3}, {0.4, 0.6}}, 96);
-  // F0 = 0.04 + metallic (0.9 - 0.04), and no diffuse to disturb it: that of the target is in its base.
+  // The target is a metal, so its base color is its F0, and it has no diffuse that would disturb the match.
   options.target_roles.fixed = {{"metallic", 1.0}};
   const Table table = sweep(*make_builtin_renderer(), options);
   CHECK(comment(table, "target_fixed") == "metallic=1,specular=0.5");

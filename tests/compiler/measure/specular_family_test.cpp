@@ -1,5 +1,5 @@
-// Models without a known law of specular: the pictures whose combinations give all others, and matches by
-// them, against direct renders.
+// This file tests models without a known law of specular: the pictures whose combinations give all others,
+// and matches with them, against direct renders.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,14 +22,16 @@ namespace {
 
 constexpr Range kAlphas{0.05, 0.8};
 
-// Like three.js: a part proportional to level, a wider one proportional to its square, and light at level 0.
+// Returns a renderer like three.js: a part proportional to level, a wider part proportional to its square,
+// and light at level 0.
 BlendRenderer quadratic_blend() {
   return BlendRenderer({{"mitsuba/ggx-plain", 1.0, [](double level) { return 0.01 + 0.6 * level; }},
                         {"mitsuba/beckmann-plain", 1.2, [](double level) { return 0.8 * level * level; }}},
                        {0.0, 1.0});
 }
 
-// Cycles and Mitsuba's Disney BSDFs: exact Fresnel by the index of an F0 of 0.08 times the level.
+// Returns a renderer like Cycles and Mitsuba's Disney BSDFs: exact Fresnel by the index of an F0 of 0.08
+// times the level.
 LawRenderer fresnel_level() {
   return LawRenderer("mitsuba/ggx-dielectric", {0.0, 1.0}, [](double level) {
     const double root = std::sqrt(0.08 * level);
@@ -42,8 +44,8 @@ std::optional<SpecularFamily> family_of(const Renderer& renderer, const std::str
   return probe_family(picture_taker, renderer.model(model), kAlphas);
 }
 
-// Returns the largest deviation of the family's pictures from rendered ones, at speculars and widths that
-// were not probed, relative to the brightest pixel at full specular.
+// Returns the largest deviation of the family's pictures from rendered ones, relative to the brightest pixel
+// at full specular. It uses speculars and widths that were not probed.
 double family_deviation(const Renderer& renderer, const std::string& model, const SpecularFamily& family) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
   const ProbedModel probed_model{renderer.model(model), {}, 1.0, family};
@@ -63,7 +65,7 @@ double family_deviation(const Renderer& renderer, const std::string& model, cons
   return worst;
 }
 
-// Weighted squared difference of a target's picture from a source's, by direct renders.
+// A RenderedLoss is the weighted squared difference of a target's picture from a source's, by direct renders.
 class RenderedLoss {
  public:
   RenderedLoss(const Renderer& renderer, const SweepOptions& options, const RoleValues& source)
@@ -110,7 +112,8 @@ class RenderedLoss {
 }  // namespace
 
 TEST_CASE("polynomial: minima over a range agree with a dense grid") {
-  // Degree 6 with two minima inside, one lower; the ends of the range; and a range with one minimum.
+  // The polynomial has degree 6 and two minima of different depth. The ranges contain both, one, or only an
+  // end.
   const std::vector<double> wells = {0.2, -0.35, -2.1, 0.3, 2.4, 0.05, 0.1};
   for (const Range range : {Range{-1.0, 1.0}, {-0.2, 1.0}, {-1.0, -0.9}, {0.0, 0.3}}) {
     std::vector<double> grid;
@@ -141,7 +144,7 @@ TEST_CASE("polynomial: a parabola has its minimum at the vertex or the nearer en
 }
 
 TEST_CASE("family: a few pictures give all others of a model without a law", "[slow]") {
-  // Two pictures whatever the law of their weights, one where only the strength changes.
+  // Two pictures are needed, whatever the law of their weights. One is enough if only the strength changes.
   const BlendRenderer blend = quadratic_blend();
   const auto quadratic = family_of(blend, "disguised/blend");
   REQUIRE(quadratic);
@@ -161,7 +164,7 @@ TEST_CASE("family: a few pictures give all others of a model without a law", "[s
   CHECK(exact->coordinate_kind == SpecularCoordinate::kRoot);
   CHECK(exact->picture_count() <= 5);
   CHECK(family_deviation(fresnel, "disguised/law", *exact) <
-        4e-6);  // twice the tolerance of points of the probe
+        4e-6);  // twice the tolerance of the points that the probe compares
 }
 
 TEST_CASE("family: a law that bends sharply has no family") {
@@ -183,7 +186,8 @@ TEST_CASE("sweep: a target that is quadratic in specular is matched as direct re
       INFO(objective << ": alpha " << row.alpha1 << " specular " << row.specular1);
       const RenderedLoss loss(renderer, options, {row.alpha1, row.specular1, 0.0});
       const RoleValues best = loss.brute_force(kAlphas, {0.0, 1.0});
-      // The grid ends at steps of some 1e-5; float pictures leave 1e-7 of the loss, whose root that is.
+      // The grid ends at steps of about 1e-5. Float pictures cause an error of 1e-7 in the loss, whose root
+      // matters here.
       CHECK(row.alpha2 == Approx(best.alpha).epsilon(1e-3));
       CHECK(row.specular2 == Approx(best.specular).epsilon(1e-3));
       CHECK(loss(row.alpha2, row.specular2) <= loss(best.alpha, best.specular) * (1.0 + 1e-6));
@@ -196,8 +200,8 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   const SweepOptions options = sweep_options("mitsuba/ward", "disguised/blend", "natural-1",
                                              grid_samples({0.1, 0.6}, 3, {0.0, 0.8}, 6), 48);
   const Table table = sweep(renderer, options);
-  // Probes of the law and of the family, two pictures at each of 66 nodes at most, one for each sphere
-  // compared.
+  // The pictures are probes of the law and of the family, two at each of at most 66 nodes, and one for each
+  // compared sphere.
   CHECK(renderer.pictures() <= 10 + 27 + 2 * 67 + 3);
   const std::size_t before = renderer.pictures();
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, 1);
@@ -208,7 +212,7 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
     auto weights = picture_taker.weights(source);
     const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, {false, false});
     const JointMatch match = matcher.match({{row.alpha1, 0.5, 0.0}});
-    // Central differences of float pictures, and the tolerances of Ceres.
+    // The margin allows for central differences of float pictures and for the tolerances of Ceres.
     CHECK(row.alpha2 == Approx(match.point().alpha).epsilon(1e-4));
     CHECK(row.specular2 == Approx(match.point().specular).epsilon(2e-4));
     CHECK(row.error == Approx(match.error).epsilon(1e-5));
@@ -222,7 +226,7 @@ TEST_CASE("sweep: exact Fresnel of a specular level is matched with itself") {
                                                     grid_samples({0.08, 0.7}, 3, {0.0, 0.95}, 8), 48));
   for (const TableRow& row : table.rows) {
     INFO("alpha " << row.alpha1 << " specular " << row.specular1);
-    // Where the picture is a tenth as bright as at full specular, 2e-6 of that is 2e-5.
+    // A picture may be a tenth as bright as at full specular. There, an error of 2e-6 becomes 2e-5.
     CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-4));
     CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-4));
     CHECK(row.status == RowStatus::kOk);
@@ -230,7 +234,7 @@ TEST_CASE("sweep: exact Fresnel of a specular level is matched with itself") {
 }
 
 TEST_CASE("sweep: two speculars that give the same picture make a row unstable") {
-  // 0.48 at 0.3 and at 0.8; only one value gives 0.15.
+  // Both 0.3 and 0.8 give 0.48. Only one value gives 0.15.
   const LawRenderer renderer("mitsuba/ward", {0.0, 1.0}, [](double s) { return s * (2.2 - 2.0 * s); });
   const Table table = sweep(
       renderer, sweep_options("mitsuba/ward", "disguised/law", "natural", {{0.3, 0.48}, {0.3, 0.15}}, 48));
@@ -276,7 +280,8 @@ TEST_CASE("pictures: those of a family and their derivatives agree with renders"
       return worst / largest;
     };
     CHECK(close(a.picture, b.picture) < 1e-5);
-    // Differences over 1e-3 of the range, of floats; the second order shows at small specular.
+    // The difference quotients have steps of 1e-3 of the range, and pictures are floats. Second-order errors
+    // are visible at small specular.
     for (std::size_t c = 0; c < 3; ++c) CHECK(close(a.by[c], b.by[c]) < 1e-3);
   }
 }
@@ -296,7 +301,7 @@ TEST_CASE("material sample: a target without a law is matched by the bank's pict
     for (std::size_t i = 0; i < row.source.size(); ++i)
       CHECK(row.target[i] == Approx(row.source[i]).epsilon(2e-4));
   }
-  // One a sample, probes of the law (10) and of the family, two at each of 67 nodes. rendered searches take a
-  // hundred a sample.
+  // The pictures are one per sample, probes of the law (10) and of the family, and two at each of 67 nodes. A
+  // search that renders each step would need a hundred pictures per sample.
   CHECK(renderer.pictures() <= 12 + 10 + 27 + 2 * 67);
 }

@@ -1,4 +1,4 @@
-// Diffuse and specular together: one, two and three stages (section 3.1 of the paper).
+// This file tests diffuse and specular together: one, two and three stages (section 3.1 of the paper).
 #include <atomic>
 #include <cmath>
 
@@ -47,7 +47,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(three.rows[i].error <= two.rows[i].error * (1.0 + 1e-6));
     CHECK(two.rows[i].diffuse2 == 0.3);
-    // If both are ok, they are the same minimum.
+    // If both results are ok, they are the same minimum.
     if (one.rows[i].status == RowStatus::kOk && three.rows[i].status == RowStatus::kOk) {
       CHECK(one.rows[i].alpha2 == Approx(three.rows[i].alpha2).epsilon(1e-3));
       CHECK(one.rows[i].specular2 == Approx(three.rows[i].specular2).epsilon(1e-3));
@@ -64,7 +64,8 @@ TEST_CASE("stages: width and specular of two stages do not depend on diffuse") {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(with.rows[i].alpha2 == without.rows[i].alpha2);
     CHECK(with.rows[i].specular2 == without.rows[i].specular2);
-    CHECK(with.rows[i].error < without.rows[i].error);  // of the whole picture, which diffuse makes alike
+    // the error covers the whole picture, and diffuse is equal in both
+    CHECK(with.rows[i].error < without.rows[i].error);
   }
 }
 
@@ -83,7 +84,7 @@ TEST_CASE("stages: the joint match is a minimum of the whole picture as direct r
     return sum;
   };
   const double step = 1e-3, middle = loss(row.alpha2, row.specular2, row.diffuse2);
-  const auto vertex = [&](double da, double ds, double dd) {  // of the parabola along one parameter
+  const auto vertex = [&](double da, double ds, double dd) {  // vertex of the parabola along one parameter
     const double low = loss(row.alpha2 - da, row.specular2 - ds, row.diffuse2 - dd);
     const double high = loss(row.alpha2 + da, row.specular2 + ds, row.diffuse2 + dd);
     return step * (low - high) / (2.0 * (low - 2.0 * middle + high));
@@ -103,7 +104,7 @@ TEST_CASE("stages: a joint match at a bound is clamped or unstable, and records 
 }
 
 TEST_CASE("stages: a target whose diffuse does not add is detected and matched by renders") {
-  // Diffuse that dims the highlight, as in layered models.
+  // A Layered renders a diffuse lobe that the highlight darkens, as layered models do.
   class Layered final : public Renderer {
    public:
     std::string version() const override { return "layered 1"; }
@@ -130,7 +131,8 @@ TEST_CASE("stages: a target whose diffuse does not add is detected and matched b
 
 TEST_CASE("stages: a black source is flat") {
   const auto renderer = make_builtin_renderer();
-  SweepOptions options = staged(1, {{0.3, 1.0}, {0.3, 1.5}}, 0.0);  // indices: 1 is no boundary at all
+  // specular is an index, and 1 means no boundary at all
+  SweepOptions options = staged(1, {{0.3, 1.0}, {0.3, 1.5}}, 0.0);
   options.source = "mitsuba/as-dielectric";
   const Table table = sweep(*renderer, options);
   CHECK(table.rows[0].status == RowStatus::kFlat);

@@ -1,4 +1,4 @@
-// Shared by the tests of sweeps: options with defaults, and a sweep.
+// This file holds what the tests of sweeps share: options with defaults, and a sweep.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ inline Table sweep(const Renderer& renderer, const SweepOptions& options, unsign
   return run_sweep(renderer, options, execution);
 }
 
-// Returns the value of a comment of a table; empty if there is no such comment.
+// Returns the value of a comment of a table, or an empty text if there is no such comment.
 inline std::string comment(const Table& table, const std::string& key) {
   for (const auto& [name, value] : table.comments)
     if (name == key) return value;

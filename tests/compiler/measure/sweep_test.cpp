@@ -1,5 +1,5 @@
-// The sweep against the published table, against figures of an independent program, and against pictures
-// rendered at its results.
+// This file tests the sweep against the published table, against figures of an independent program, and
+// against pictures rendered at its results.
 #include "measure/sweep.hpp"
 
 #include <algorithm>
@@ -49,8 +49,8 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
 }
 
 TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured elsewhere", "[slow]") {
-  // Measured by an independent prototype: natural-1 .1221 and 1.032, paper .157 and 1.265; Ward without
-  // Fresnel .1188 and .712. Tolerances are half a unit of the last digit given, and a little.
+  // An independent prototype measured natural-1 .1221 and 1.032, paper .157 and 1.265, and Ward without
+  // Fresnel .1188 and .712. Tolerances are a little more than half a unit of the last digit.
   const auto renderer = make_builtin_renderer();
   const auto row = [&](const std::string& source, const std::string& target, const std::string& objective) {
     return sweep(*renderer, sweep_options(source, target, objective, {{0.15, 0.5}})).rows.front();
@@ -75,7 +75,7 @@ TEST_CASE("sweep: a model matched with itself is the identity") {
            sweep(*renderer, sweep_options(model, model, objective, samples, 128)).rows) {
         CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-6));
         CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-6));
-        // The root of what interpolation leaves of a loss of 0.
+        // The loss should be 0. The error is the square root of the small loss that interpolation causes.
         CHECK(row.error < 5e-4);
         CHECK(row.status == RowStatus::kOk);
       }
@@ -99,8 +99,8 @@ TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
       sum += weights[i] * std::pow(static_cast<double>(source[i]) - target[i], 2);
     return sum;
   };
-  // The vertex of the parabola through three renders: 1e-3 apart it is good to the square of that in the
-  // curvature's change, and float pictures leave 1e-7 of the loss.
+  // Returns the vertex of the parabola through three renders. Its error is the change of the curvature times
+  // the square of the step, which is 1e-3. Float pictures cause an error of 1e-7 in the loss.
   const auto vertex = [](double low, double middle, double high, double step) {
     return step * (low - high) / (2.0 * (low - 2.0 * middle + high));
   };
@@ -144,7 +144,7 @@ TEST_CASE("sweep: rows on both sides mark where the target reaches a limit, and 
       sweep(*make_builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));
   CHECK(table.limits.alpha == 1.0);
   CHECK(table.limits.specular == 1.0);
-  // The samples keep their order; what was added follows.
+  // The samples keep their order, and the rows that were added follow them.
   for (std::size_t j = 0; j < samples.size(); ++j) CHECK(table.rows[j].specular1 == samples[j].specular);
   std::vector<TableRow> rows = table.rows;
   std::ranges::sort(rows, {}, &TableRow::specular1);
@@ -186,7 +186,7 @@ TEST_CASE("bank: widths cover the range, within the model's, no further apart th
   const PictureTaker picture_taker(*renderer, objective_preset("paper"), 8, 1);
   const ModelDescription model = renderer->model("mitsuba/ggx");
   const SpecularResponse response = probe_specular(picture_taker, model, {0.1, 1.0});
-  // The last range is smaller than a window of the usual steps.
+  // The last range is smaller than a window of full steps.
   for (const Range alphas :
        {Range{0.00275625, 1.0}, {0.01, 0.99}, {0.2, 0.2 * 1.6}, {0.25, 1.0}, {0.95, 1.0}})
     for (const bool takes_less : {false, true}) {

@@ -1,4 +1,4 @@
-// Diagnoses of metallic materials, and the estimate of a dielectric's F0.
+// This file tests diagnoses of metallic materials, and the estimate of a dielectric's F0.
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ MetallicDiagnosis diagnosis_of(const WorkflowConversion& conversion, const Specu
   return diagnose(conversion, material, to_metallic(conversion, material));
 }
 
-// Texels of metallic materials, as 8-bit maps hold them.
+// Returns texels of metallic materials, as 8-bit maps store them.
 std::vector<SpecularMaterial> stored_family(const WorkflowConversion& there, int count,
                                             float least_metallic) {
   std::mt19937 random(21);
@@ -57,7 +57,7 @@ TEST_CASE("diagnosis: the residual is the root of the oracle's error, 0 on the f
 TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide where it does not") {
   const SpecularMaterial gold = to_specular(plain(Equation2{}), {{1.0f, 0.77f, 0.34f}, 1.0f, 0.3f});
   CHECK(diagnosis_of(plain(kClean), gold).metallic_uncertainty < 0.1f);
-  // Of albedo F0 diffuse fades as fast as F0 stays: any metallic has the same F0, and hardly any diffuse.
+  // At an albedo close to F0, every metallic has the same F0 and hardly any diffuse.
   const SpecularMaterial soot = to_specular(plain(Equation2{}), {{0.01f, 0.01f, 0.01f}, 0.0f, 0.9f});
   CHECK(diagnosis_of(plain(kClean), soot).metallic_uncertainty > 0.1f);
   const SpecularMaterial black{{0, 0, 0}, {0, 0, 0}, 0.5f};
@@ -65,7 +65,8 @@ TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide
 }
 
 TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
-  const SpecularMaterial bright{{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, 0.5f};  // twice what arrives
+  // reflects twice the light that arrives
+  const SpecularMaterial bright{{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, 0.5f};
   CHECK(diagnosis_of(plain(kClean), bright).is_clamped);
   CHECK(diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 1.5f}, 0.5f}).is_clamped);
   CHECK(!diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 0.04f}, 0.5f}).is_clamped);

@@ -1,4 +1,5 @@
-// Workflow conversions against values by hand, published formulas and an oracle that looks everywhere.
+// This file tests workflow conversions against values computed by hand, published formulas, and an oracle
+// that searches everywhere.
 #include <cstring>
 #include <limits>
 
@@ -15,10 +16,10 @@ namespace {
 double squared(double value) { return value * value; }
 
 struct FamilyError {
-  double metallic, base_color;  // root mean squares; base color in sRGB
+  double metallic, base_color;  // root mean squares, for base color in sRGB
 };
 
-// Random metallic materials to specular and back; between both through `stored`.
+// Converts random metallic materials to specular and back. `stored` rounds them in between.
 template <typename Stored>
 FamilyError family_error(const WorkflowConversion& back, const WorkflowConversion& there, int count,
                          const Stored& stored) {
@@ -99,7 +100,7 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
       const double error =
           oracle.error(result.metallic, {result.base_color[0], result.base_color[1], result.base_color[2]});
       const double least = oracle.least_error(500);
-      // The root of an error is what is seen: 0.42 of it are display values.
+      // The square root of the error is visible. Display values differ by 0.42 times this value.
       const double more = std::sqrt(std::max(error, 0.0)) - std::sqrt(least);
       excess += squared(std::max(more, 0.0));
       floor += least;
@@ -113,7 +114,8 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
 TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit maps") {
   constexpr int kCount = 100000;
   const FamilyError exact = family_error(plain(Projection{0.0}), plain(Equation2{}), 20000, as_it_is);
-  // F0 that 8 bits cannot tell from a dielectric's counts as one, which is most of this.
+  // In 8 bits, some values of F0 equal the F0 of a dielectric and are treated like it. This causes most of
+  // the error.
   CHECK(exact.metallic < 5e-5);
   CHECK(exact.base_color < 2e-5);
   const FamilyError stored = family_error(plain(kClean), plain(Equation2{}), kCount, in_8_bits);
@@ -121,11 +123,12 @@ TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit 
   CHECK(stored.base_color <= 0.0015);
   const FamilyError scaled = family_error(gltf(kClean), gltf(Equation2{}), kCount, in_8_bits);
   CHECK(scaled.metallic <= 0.002);
-  CHECK(scaled.base_color <= 0.005);  // a metal's diffuse is divided by the little light that is left
+  // to get its base color, a metal's diffuse is divided by the little light that specular does not reflect
+  CHECK(scaled.base_color <= 0.005);
 }
 
-// Figures of the same rivals that were measured elsewhere, for another set of random materials: within 5 %,
-// in the convention of each.
+// The same rivals were measured elsewhere with another set of random materials. Each agrees within 5 % in its
+// own convention.
 TEST_CASE("rivals on the family: as far off as they were measured") {
   const FamilyError mean =
       family_error(plain(Equation3{MetallicMean::kPlain}), plain(Equation2{}), 100000, as_it_is);
@@ -134,7 +137,8 @@ TEST_CASE("rivals on the family: as far off as they were measured") {
       family_error(plain(Equation3{MetallicMean::kAlbedo}), plain(Equation2{}), 100000, as_it_is);
   CHECK(weighted.metallic == Approx(0.006).epsilon(0.15));
   const FamilyError khronos = family_error(gltf(KhronosSolver{}), gltf(Equation2{}), 100000, as_it_is);
-  // Some dark dielectrics in a thousand become metal and make the figure: it depends on the draw.
+  // A few dark dielectrics in a thousand become metal and dominate this figure, so it depends on the random
+  // numbers.
   CHECK(khronos.metallic > 0.007);
   CHECK(khronos.metallic < 0.014);
 }
@@ -169,7 +173,7 @@ TEST_CASE("every formula: black, white, specular below F0 and above 1 give a mat
   CHECK(to_metallic(plain(kClean), odd[3]).metallic == 0.0f);
   CHECK(to_metallic(plain(kClean), odd[3]).base_color[1] == Approx(1.0).margin(0.05));
   CHECK(to_metallic(plain(kClean), odd[4]).metallic == Approx(0.0).margin(0.01));
-  // 8 bits make 0.0395 of 0.04: a dark dielectric stays one.
+  // 8 bits store 0.04 as 0.0395. A dark dielectric must stay a dielectric.
   CHECK(to_metallic(plain(kClean), odd[5]).metallic < 0.05f);
 }
 
@@ -193,7 +197,7 @@ TEST_CASE("NaN: in the outputs that depend on it, and nowhere else") {
     CHECK(is_nan(result.diffuse[0]));
     CHECK(is_nan(result.specular[0]));
     CHECK(!is_nan(result.specular[1]));
-    CHECK(is_nan(result.diffuse[1]) == scaled);  // 1 - max(specular) is not known
+    CHECK(is_nan(result.diffuse[1]) == scaled);  // 1 - max(specular) is unknown
     CHECK(!is_nan(result.width));
     CHECK(is_nan(to_specular(conversion, {{0.1f, 0.3f, 0.2f}, nan, 0.5f}).specular[2]));
   }

@@ -1,4 +1,5 @@
-// Stand-ins for closed renderers: the built-in one with other names, scales, laws and lights.
+// This file makes substitutes for closed renderers: the built-in renderer with other names, scales, laws and
+// lights.
 #pragma once
 
 #include <atomic>
@@ -13,7 +14,8 @@
 
 namespace remap {
 
-// The built-in renderer, plus one model of a closed one.
+// A DisguisedRenderer is the built-in renderer with one additional model. This model acts like one of a
+// closed renderer.
 class DisguisedRenderer : public Renderer {
  public:
   std::string version() const override { return "disguised"; }
@@ -36,8 +38,8 @@ class DisguisedRenderer : public Renderer {
   std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
-// The built-in renderer, plus `disguised/metal`: Ward with another name and scale for every parameter, and
-// light of an unknown strength.
+// A BothRenderers also has `disguised/metal`: Ward with another name and scale for every parameter, and light
+// of an unknown strength.
 class BothRenderers final : public DisguisedRenderer {
  public:
   explicit BothRenderers(double light = 0.5) : light_(light) {}
@@ -64,7 +66,7 @@ class BothRenderers final : public DisguisedRenderer {
   double light_;
 };
 
-// The built-in renderer, plus `disguised/clay`: GGX on a diffuse of Oren and Nayar.
+// A ClayRenderer also has `disguised/clay`: GGX on a diffuse lobe of Oren and Nayar.
 class ClayRenderer final : public DisguisedRenderer {
  public:
   explicit ClayRenderer(double sigma) : sigma_(sigma) {}
@@ -89,7 +91,7 @@ class ClayRenderer final : public DisguisedRenderer {
   double sigma_;
 };
 
-// The built-in renderer, plus `disguised/law`: `inner` with its specular computed by a function of the given
+// A LawRenderer also has `disguised/law`: the model `inner`, whose specular is a given function of the
 // parameter, over `range`.
 class LawRenderer final : public DisguisedRenderer {
  public:
@@ -119,14 +121,14 @@ class LawRenderer final : public DisguisedRenderer {
   std::function<double(double)> law_;
 };
 
-// Only `disguised/blend`: the sum of pictures of built-in models, each with its own width, times functions of
-// one specular parameter. The shape of the picture depends on specular, not only its strength. Refuses widths
-// out of range, as real renderers do, and counts its pictures.
+// A BlendRenderer has only `disguised/blend`: the sum of pictures of built-in models, each with its own
+// width, times functions of one specular parameter. The shape of the picture depends on specular, not only
+// its strength. It refuses widths out of range, as real renderers do, and counts its pictures.
 class BlendRenderer final : public DisguisedRenderer {
  public:
   struct Term {
-    std::string model;  // of the built-in renderer; at full specular, without diffuse
-    double width;       // its alpha as a multiple of the blend's
+    std::string model;  // a built-in model, rendered at full specular without diffuse
+    double width;       // its alpha, relative to the alpha of the blend
     std::function<double(double)> weight;
   };
 

@@ -1,4 +1,4 @@
-// Fresnel's formulas against closed forms, and equation (1) of the paper.
+// This file tests Fresnel's formulas against closed forms, and equation (1) of the paper.
 #include "renderer/fresnel.hpp"
 
 #include <cmath>
@@ -10,7 +10,8 @@ using namespace remap;
 
 namespace {
 
-// The conductor by complex arithmetic, as in textbooks: Snell's law with a complex index.
+// Returns the reflectance of a conductor by complex arithmetic, as in textbooks: Snell's law with a complex
+// index.
 PolarisedReflectance complex_reflectance(double cosine, std::complex<double> ior) {
   const double sine_2 = 1.0 - cosine * cosine;
   const std::complex<double> root = std::sqrt(ior * ior - sine_2);
@@ -25,7 +26,7 @@ TEST_CASE("fresnel: along the normal it is equation (1)") {
   for (const double eta : {0.05, 0.2, 1.0, 1.5, 4.2})
     for (const double k : {0.0, 0.5, 3.0, 9.0}) {
       const double f0 = normal_reflectance({eta, k});
-      // ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2), the same with real numbers.
+      // The formula with real numbers is ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2).
       CHECK(f0 == Approx(((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k)).epsilon(1e-14));
       CHECK(std::fabs(fresnel_conductor(1.0, eta, k).mean() - f0) < 1e-12);
       CHECK(std::fabs(fresnel_conductor(1.0, eta, k).p - fresnel_conductor(1.0, eta, k).s) < 1e-12);
@@ -43,7 +44,7 @@ TEST_CASE("fresnel: F0 and index are inverse of each other") {
 
 TEST_CASE("fresnel: at Brewster's angle p vanishes and s is that of the closed form") {
   for (const double ior : {1.1, 1.333, 1.5, 2.42}) {
-    const double cosine = 1.0 / std::sqrt(1.0 + ior * ior);  // tan = ior
+    const double cosine = 1.0 / std::sqrt(1.0 + ior * ior);  // Brewster's angle: tan = ior
     const PolarisedReflectance found = fresnel_dielectric(cosine, ior);
     CHECK(found.p < 1e-15);
     const double root = (1.0 - ior * ior) / (1.0 + ior * ior);
@@ -71,7 +72,7 @@ TEST_CASE("fresnel: a dielectric is a conductor that does not absorb") {
 }
 
 TEST_CASE("fresnel: total reflection for an index below 1") {
-  const double critical = std::sqrt(1.0 - 0.7 * 0.7);  // sine of the critical angle is the index
+  const double critical = std::sqrt(1.0 - 0.7 * 0.7);  // the sine of the critical angle is the index
   CHECK(fresnel_dielectric(critical * 0.99, 0.7).mean() == 1.0);
   CHECK(fresnel_dielectric(critical * 1.01, 0.7).mean() < 1.0);
 }

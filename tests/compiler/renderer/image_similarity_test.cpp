@@ -1,4 +1,4 @@
-// The similarity of pictures against scikit-image and closed forms.
+// This file tests the similarity of pictures against scikit-image and closed forms.
 #include "renderer/image_similarity.hpp"
 
 #include <cmath>
@@ -33,8 +33,8 @@ std::vector<float> grain() {
   return picture([](int x, int y) { return (x * 7 + y * 13) % 11 / 10.0; });
 }
 
-// The results of scikit-image 0.26 for these pictures: structural_similarity(a, b, data_range=1, full=True,
-// gaussian_weights=True, sigma=1.5, use_sample_covariance=False).
+// A Golden holds the results of scikit-image 0.26 for these pictures: structural_similarity(a, b,
+// data_range=1, full=True, gaussian_weights=True, sigma=1.5, use_sample_covariance=False).
 struct Golden {
   double mean, top_left, middle, bottom_right, top_right;
 };
@@ -43,7 +43,7 @@ constexpr Golden kWavesToWaves{0.8578487598560238, 0.9739736505735671, 0.9529733
 constexpr Golden kWavesToGrain{0.005531302647734717, 0.3092004203144719, -0.05540938492897119,
                                0.017968541818760352, -0.17206992398494383};
 
-// Sines of two libraries may differ in the last digit of a float; the map is kept in floats.
+// The sines of two math libraries may differ in the last digit of a float, and the map holds floats.
 constexpr double kTolerance = 2e-6;
 
 void check_golden(const std::vector<float>& a, const std::vector<float>& b, const Golden& golden) {
@@ -69,7 +69,7 @@ TEST_CASE("image similarity: it is symmetric, and 1 for equal pictures") {
 }
 
 TEST_CASE("image similarity: constant pictures differ by their means alone") {
-  // (2 a b + C1) / (a^2 + b^2 + C1), Wang et al. 2004, equation (13) without variance.
+  // The similarity is (2 a b + C1) / (a^2 + b^2 + C1): Wang et al. 2004, equation (13) without variance.
   const std::vector<float> a(16, 0.25f), b(16, 0.75f);
   CHECK(structural_similarity(a, b, 4, 4) == Approx((0.375 + 1e-4) / (0.625 + 1e-4)).epsilon(1e-6));
   CHECK(rms_difference(a, b) == Approx(0.5).epsilon(1e-12));

@@ -1,5 +1,5 @@
-// Equation (2) against pictures: a metallic material and the specular one that it converts to look the same
-// (figure 20 of Sztrajman et al. 2019).
+// This file tests equation (2) by pictures: a metallic material and the specular material that it converts to
+// look the same (figure 20 of Sztrajman et al. 2019).
 #include <cmath>
 
 #include <catch2/catch.hpp>

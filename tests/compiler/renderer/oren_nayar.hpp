@@ -1,5 +1,5 @@
-// A diffuse lobe that is not Lambert's: the qualitative model of Oren and Nayar 1994, for rough clay. It is
-// flatter towards the rim of a sphere, so no factor makes it that of Lambert.
+// This file has a diffuse lobe that differs from Lambert's: the qualitative model of Oren and Nayar 1994, for
+// rough clay. It is flatter towards the rim of a sphere, so no factor turns it into Lambert's lobe.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace remap {
 
-// The factor on Lambert's reflectance; `sigma` is the standard deviation of the slopes' angles in radians.
+// Returns the factor that multiplies Lambert's reflectance. `sigma` is the standard deviation of the slopes'
+// angles in radians.
 inline double oren_nayar_factor(double cos_light, double cos_view, double cos_between, double sigma) {
   const double square = sigma * sigma;
   const double a = 1.0 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
@@ -23,7 +24,7 @@ inline double oren_nayar_factor(double cos_light, double cos_view, double cos_be
   return a + b * std::max(0.0, cos_azimuth) * sin_light * sin_view / std::max(cos_light, cos_view);
 }
 
-// The radiance of a white sphere of this reflectance at the centres of pixels, one channel.
+// Returns the radiance of a white sphere of this reflectance at the centres of pixels, in one channel.
 inline Image oren_nayar_picture(const Scene& scene, double sigma) {
   const double angle = scene.light.angle * std::numbers::pi / 180.0;
   const SurfacePoint light = {scene.light.distance * std::sin(angle), 0.0,

@@ -1,4 +1,5 @@
-// Compares the built-in renderer with closed forms at single pixels, and checks the properties of its models.
+// This file compares the built-in renderer with closed forms at single pixels, and checks the properties of
+// its models.
 #include "renderer/renderer.hpp"
 
 #include <cmath>
@@ -41,8 +42,8 @@ LocalGeometry geometry(double cos_light, double cos_view, double azimuth) {
 constexpr Brdf kAllBrdfs[] = {
     Brdf::kWard, Brdf::kWardDuer, Brdf::kWardBalanced, Brdf::kPhong, Brdf::kBeckmann, Brdf::kGgx, Brdf::kAs};
 
-// Returns the reflected share of light from `cos_light` at specular 1, by the midpoint rule over the
-// hemisphere.
+// Returns the fraction of light from `cos_light` that is reflected at specular 1, by the midpoint rule over
+// the hemisphere.
 double directional_albedo(Brdf brdf, Fresnel fresnel, double alpha, double cos_light, double f0) {
   constexpr int kPolar = 400, kAzimuth = 400;
   double sum = 0.0;
@@ -57,7 +58,8 @@ double directional_albedo(Brdf brdf, Fresnel fresnel, double alpha, double cos_l
   return sum * (0.5 * pi / kPolar) * (2.0 * pi / kAzimuth);
 }
 
-// The directions at one pixel off the middle of the sphere, computed from vectors.
+// A PixelGeometry holds the directions at one pixel away from the middle of the sphere, computed from
+// vectors.
 struct PixelGeometry {
   double cos_light, cos_view, cos_half, cos_light_half, distance_2;
 };
@@ -86,7 +88,7 @@ PixelGeometry pixel_geometry() {
           dot(h, l[0], l[1], l[2]) / half_length, light_length * light_length};
 }
 
-// D G / (4 cos cos) as printed by Walter et al. 2007, in angles.
+// Returns D G / (4 cos cos) as printed by Walter et al. 2007, in angles.
 double walter(const std::string& name, double alpha, const PixelGeometry& g) {
   const double theta_h = std::acos(g.cos_half), tan_h = std::tan(theta_h);
   const auto shadowing = [&](double cosine) {
@@ -207,7 +209,7 @@ TEST_CASE("renderer: radiance along the normal has the closed form of each model
   for (const double alpha : {0.1, 0.35, 0.8}) {
     const double a2 = alpha * alpha;
     const double exponent = 2.0 / a2 - 2.0;
-    // brdf * cos / distance^2 with specular 0.5 and distance 2.
+    // Lambert's pixel is brdf * cos / distance^2, with specular 0.5 and distance 2.
     const double lambert = 0.5 / 4.0;
     CHECK(central_radiance("mitsuba/ward", "alpha", alpha, "specular") == Approx(lambert / (4 * pi * a2)));
     CHECK(central_radiance("mitsuba/ward-duer", "alpha", alpha, "specular") ==
@@ -282,8 +284,8 @@ TEST_CASE("brdf: microfacet distributions have projected area 1") {
   }
 }
 
-// This holds for all models of the hub, also for Mitsuba's Phong: without division by the cosine of the
-// light, cos^n of the mirrored angle is symmetric.
+// This holds for all models of the hub. It also holds for Mitsuba's Phong: without division by the cosine of
+// the light, cos^n of the mirrored angle is symmetric.
 TEST_CASE("brdf: light and view can change places") {
   for (const Brdf brdf : kAllBrdfs) {
     const Lobe there = evaluate_lobe(brdf, Fresnel::kSchlick, 0.4, geometry(0.9, 0.35, 1.1));
@@ -318,7 +320,8 @@ TEST_CASE("renderer: parameters out of range, unknown or missing are refused by 
 TEST_CASE("Lobes of an exponent are what their sources print", "[renderer]") {
   const PixelGeometry g = pixel_geometry();
   const double irradiance = g.cos_light / g.distance_2;
-  // The mirrored light: 2 (N.L) N - L, and its cosine to the camera, from that of light and camera.
+  // The mirrored light is 2 (N.L) N - L. Its cosine to the camera follows from the cosine between light and
+  // camera.
   const double cos_between = 2.0 * g.cos_light_half * g.cos_light_half - 1.0,
                cos_mirror = 2.0 * g.cos_light * g.cos_view - cos_between;
   constexpr double kKs = 0.7, kKd = 0.3;
@@ -327,8 +330,8 @@ TEST_CASE("Lobes of an exponent are what their sources print", "[renderer]") {
     const auto pixel = [&](const char* name) {
       return pixel_of({name, {{"exponent", {n}}, {"specular", {kKs}}, {"diffuse", {kKd}}}});
     };
-    // OpenGL 1.0, section 2.13, with the light that gives a white diffuse surface radiance 1: light times
-    // (Kd N.L + Ks (N.H)^n).
+    // OpenGL 1.0, section 2.13, computes light times (Kd N.L + Ks (N.H)^n). Here, the light gives a white
+    // diffuse surface radiance 1.
     const double light = 1.0 / (pi * g.distance_2);
     CHECK(pixel("legacy/blinn-phong") ==
           Approx(light * (kKd * g.cos_light + kKs * std::pow(g.cos_half, n))).epsilon(1e-6));

@@ -1,4 +1,4 @@
-// The sweep scene against plain geometry.
+// This file tests the sweep scene against plain geometry.
 #include "renderer/scene.hpp"
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST_CASE("scene: every point lies on the unit sphere and on its ray") {
       SurfacePoint p;
       if (!sphere_point(64, column, row, &p)) continue;
       CHECK(p.x * p.x + p.y * p.y + p.z * p.z == Approx(1.0).epsilon(1e-12));
-      // The ray's slope is the projection's: half the image spans tan(asin(1/3)).
+      // The slope of the ray follows from the projection: half the image spans tan(asin(1/3)).
       const double slope = std::tan(std::asin(1.0 / 3.0)) * (column / 32.0 - 1.0);
       CHECK(p.x / (3.0 - p.z) == Approx(slope).margin(1e-12));
     }

@@ -1,4 +1,4 @@
-// The torus of the preview, against the definition of a torus.
+// This file tests the torus of the preview against the definition of a torus.
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kShapeSide = 96;
 
-// Distance from the torus by its definition, with the axis (0, sin, cos) of the tilt.
+// Returns the distance from the torus by its definition, with the axis (0, sin, cos) of the tilt.
 double from_torus(const SurfacePoint& p) {
   const double tilt = kTorusTilt * pi / 180.0;
   const double height = p.y * std::sin(tilt) + p.z * std::cos(tilt);
@@ -37,7 +37,7 @@ TEST_CASE("shape: every point of the torus lies on it and on its ray, with the n
       CHECK(std::fabs(from_torus(hit.position)) < 1e-9);
       CHECK(hit.position.x == Approx(t * ray.x).margin(1e-9));
       CHECK(hit.position.y == Approx(t * ray.y).margin(1e-9));
-      // Along the normal, the distance to the torus grows by the step outwards and falls inwards.
+      // If a point moves along the normal, its distance to the torus grows outwards and falls inwards.
       const auto moved = [&](double step) {
         return from_torus({hit.position.x + step * hit.normal.x, hit.position.y + step * hit.normal.y,
                            hit.position.z + step * hit.normal.z});
@@ -48,7 +48,8 @@ TEST_CASE("shape: every point of the torus lies on it and on its ray, with the n
   CHECK(hits == shape_pixels(Shape::kTorus, kShapeSide).size());
   CHECK(hits > kShapeSide * kShapeSide / 5);
   SurfaceHit hit{};
-  CHECK_FALSE(shape_point(Shape::kTorus, kShapeSide, 0.5 * kShapeSide, 0.5 * kShapeSide, &hit));  // the hole
+  // this ray goes through the hole
+  CHECK_FALSE(shape_point(Shape::kTorus, kShapeSide, 0.5 * kShapeSide, 0.5 * kShapeSide, &hit));
   CHECK(shape_pixels(Shape::kSphere, kShapeSide).size() > shape_pixels(Shape::kTorus, kShapeSide).size());
 }
 
@@ -64,7 +65,7 @@ TEST_CASE(
     for (std::size_t column = 0; column < kShapeSide / 2; ++column)
       REQUIRE(front[row * kShapeSide + column] ==
               Approx(front[row * kShapeSide + kShapeSide - 1 - column]).epsilon(1e-5).margin(1e-9));
-  // Where the light is above the horizon but the picture is black, the ring casts its shadow.
+  // Here, the light is above the horizon but the picture is black, because the ring casts its shadow.
   std::size_t shadowed = 0;
   const double x = 3.0 * std::sin(75.0 * pi / 180.0), z = 3.0 * std::cos(75.0 * pi / 180.0);
   for (const std::uint32_t pixel : shape_pixels(Shape::kTorus, kShapeSide)) {

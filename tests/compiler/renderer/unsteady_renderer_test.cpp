@@ -1,4 +1,4 @@
-// Renderers with noise, with clamped widths, and with a mirror at narrow widths.
+// This file tests renderers with noise, with clamped widths, and with a mirror at narrow widths.
 #include <cmath>
 #include <cstdint>
 
@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Returns a number of -1 to 1 that depends on the arguments only.
+// Returns a number from -1 to 1 that only depends on the arguments.
 double random_number(std::uint64_t seed, std::uint64_t pixel) {
   std::uint64_t x = (seed * 0x9E3779B97F4A7C15u) ^ (pixel + 0xD1B54A32D192ED03u);
   for (int i = 0; i < 3; ++i) x = (x ^ (x >> 31)) * 0xBF58476D1CE4E5B9u;
@@ -23,14 +23,15 @@ double random_number(std::uint64_t seed, std::uint64_t pixel) {
 }
 
 struct Habits {
-  double noise = 0.0;                // of a pixel, relative to it: uniform from -noise to noise
-  double least = 0.0, most = 1e300;  // widths beyond are clamped to these
-  double mirror = 0.0;               // widths up to this have no highlight
+  double noise = 0.0;                // relative noise of a pixel, uniform from -noise to noise
+  double least = 0.0, most = 1e300;  // widths outside of this range are clamped
+  double mirror = 0.0;               // widths up to this value have no highlight
   double paint = 1.0;                // factor of diffuse
   bool dark = false;                 // pictures are black
 };
 
-// The built-in models, plus `strange/ggx` of another program, which is mitsuba/ggx-plain with faults.
+// A StrangeRenderer has the built-in models, and `strange/ggx` of another program, which is mitsuba/ggx-plain
+// with faults.
 class StrangeRenderer final : public DisguisedRenderer {
  public:
   explicit StrangeRenderer(Habits habits) : habits_(habits) {}
@@ -72,7 +73,7 @@ const std::vector<SamplePoint> kSamples = {{0.15, 0.4}, {0.15, 0.8}, {0.4, 0.4},
 TEST_CASE("noise: its level is measured, whatever the description claims") {
   const StrangeRenderer renderer({0.1});
   const SteadyRenderer steady(renderer, {"strange/ggx", "mitsuba/ggx"}, {60.0, 3.0});
-  // Uniform from -0.1 to 0.1: 0.1 / sqrt(3) rms.
+  // Noise that is uniform from -0.1 to 0.1 has an RMS of 0.1 / sqrt(3).
   CHECK(steady.noise("strange/ggx").level == Approx(0.1 / std::sqrt(3.0)).epsilon(0.1));
   CHECK(steady.noise("strange/ggx").pictures == Approx(33).margin(6));
   CHECK_FALSE(steady.measured("mitsuba/ggx"));
@@ -152,7 +153,7 @@ TEST_CASE("sweep: a black target is refused") {
   CHECK_THROWS_WITH(
       strange_sweep({0.0, 0.0, 1e300, 0.0, 1.0, true}, "mitsuba/ggx-plain", "strange/ggx", kSamples),
       Contains("strange/ggx: no width"));
-  // A diffuse parameter without effect.
+  // This diffuse parameter has no effect.
   Habits black_paint;
   black_paint.paint = 0.0;
   CHECK_THROWS_WITH(strange_sweep(black_paint, "mitsuba/ggx-plain", "strange/ggx", kSamples),

@@ -1,5 +1,5 @@
-// Previews: an identity looks the same, other conversions do not, figures match the pictures, under every
-// light.
+// This file tests previews. An identity looks the same, other conversions do not, and figures match the
+// pictures under every light.
 #include "report/preview.hpp"
 
 #include <cmath>
@@ -60,11 +60,11 @@ TEST_CASE("preview: the identity looks the same under every light, on every shap
 
 TEST_CASE("preview: the sheet has a row for each figure and three pictures of that color") {
   const Preview preview = preview_of(identity(), small_preview({"headlight", "overcast"}));
-  constexpr int kCell = 48 + 2 * 2;  // a margin of a twentieth on each side
+  constexpr int kCell = 48 + 2 * 2;  // a picture and its margin of a twentieth on each side
   REQUIRE(preview.sheet.width == 3 * kCell);
   REQUIRE(preview.sheet.height == 6 * kCell);
   CHECK(pixel(preview.sheet, 0, 0, 0) == kSheetBackground);
-  // The tube of a torus, and spheres.
+  // These rows show the tube of a torus, and spheres.
   for (const int row : {0, 4, 5})
     for (int column = 0; column < 3; ++column) {
       const int x = kCell * column + kCell / 2, y = kCell * row + kCell / 2 - 4;
@@ -171,7 +171,7 @@ TEST_CASE("preview: the rim of a sphere under an environment is smooth and as br
   PreviewOptions options = small_preview({"overcast"});
   options.diffuse = 1.0;
   const Preview preview = preview_of(identity(), options);
-  // The columns of the first picture in the row through its middle: background, rim, sphere.
+  // These are the columns of the first picture in the row through its middle: background, rim, sphere.
   const int row = 2 + 24;
   CHECK(pixel(preview.sheet, 1, row, 1) == kSheetBackground);
   CHECK(pixel(preview.sheet, 4, row, 1) > 2.0f * kSheetBackground);

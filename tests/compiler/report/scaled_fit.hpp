@@ -1,4 +1,4 @@
-// A fit whose conversion is known.
+// This file makes a fit whose conversion is known.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace remap {
 
-// alpha2 = scale alpha1, specular2 = specular1.
+// Returns a fit with alpha2 = scale alpha1 and specular2 = specular1.
 inline Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
   Fit fit;
   fit.id = "test";

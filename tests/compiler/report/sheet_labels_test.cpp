@@ -1,4 +1,5 @@
-// Labels of sheets: beside the pictures, which stay as they are, and cut where they are too long.
+// This file tests labels of sheets: they are next to the pictures, do not change them, and are cut if they
+// are too long.
 #include "report/sheet_labels.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,7 +10,7 @@ using namespace remap;
 
 namespace {
 
-// The part of `picture` below `top` and right of `left`.
+// Returns the part of `picture` below `top` and right of `left`.
 std::vector<float> part_of(const Image& picture, int left, int top) {
   std::vector<float> values;
   for (int y = top; y < picture.height; ++y)

@@ -1,4 +1,4 @@
-// The metals of scripts/studies/conductors against the database.
+// This file compares the metals of scripts/studies/conductors with the database.
 #include <algorithm>
 #include <set>
 
@@ -14,7 +14,7 @@ using namespace remap;
 
 namespace {
 
-// The record of a material in the database.
+// Returns the record of a material in the database.
 nlohmann::json record(const nlohmann::json& database, const std::string& name) {
   for (const nlohmann::json& item : database.at("data"))
     if (item.at("name") == name) return item;

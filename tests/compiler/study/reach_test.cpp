@@ -1,4 +1,4 @@
-// The reach study against conversions whose excess is known.
+// This file tests the reach study on conversions whose excess is known.
 #include "study/reach.hpp"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ std::vector<ReachedMaterial> reach_of(const Fit& fit) {
 TEST_CASE("reach: a model reaches itself, and the identity leaves nothing", "[study]") {
   for (const ReachedMaterial& material : reach_of(scaled_fit("mitsuba/ward", "mitsuba/ward", 1.0))) {
     CHECK(material.error < 1e-6);
-    CHECK(material.least_error < 4e-3);  // widths of the bank are a hundredth apart
+    CHECK(material.least_error < 4e-3);  // the examined widths are a hundredth apart
     CHECK(material.least_alpha == Approx(material.alpha).epsilon(0.006));
     CHECK(material.least_specular == Approx(material.specular).epsilon(0.02));
   }
@@ -74,5 +74,5 @@ TEST_CASE("reach: a fit of another table is refused", "[study]") {
   ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
   options.fits.front().table.comments.clear();
   CHECK_THROWS_WITH(study_reach(*make_builtin_renderer(), options),
-                    Catch::Matchers::Contains("does not name an objective"));
+                    Catch::Matchers::Contains("does not state an objective"));
 }

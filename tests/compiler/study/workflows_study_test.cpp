@@ -1,5 +1,5 @@
-// The study of workflows on small pictures: the least error is below every method, the projection next to it,
-// and exact for materials that metallic can represent.
+// This file tests the study of workflows on small pictures. The least error is below every method, and the
+// projection is close to it. The projection is exact for materials that metallic can represent.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,8 +15,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// `count` of the 60 materials of `scripts/studies/materials --count 20 --alphas 0.15,0.5 --seed 3`, evenly
-// over its groups.
+// Returns `count` of the 60 materials of `scripts/studies/materials --count 20 --alphas 0.15,0.5 --seed 3`,
+// evenly from its groups.
 WorkflowsOptions small_study(std::size_t count) {
   WorkflowsOptions options;
   const std::string file = REMAP_SOURCE_DIR "/tests/compiler/study/materials.csv";
@@ -37,7 +37,7 @@ std::size_t place_of(const WorkflowComparison& comparison, const std::string& me
   return static_cast<std::size_t>(found - comparison.methods.begin());
 }
 
-// The mean RMSE of a method over materials and environments.
+// Returns the mean RMSE of a method over materials and environments.
 double mean_rmse(const WorkflowComparison& comparison, std::size_t method) {
   double sum = 0.0, count = 0.0;
   for (const WorkflowPictures& pictures : comparison.pictures[method])
@@ -64,7 +64,7 @@ TEST_CASE("study workflows: floor, projection, equation (3), in this order, in b
       if (comparison.methods[m].name == "projection") continue;
       CHECK(projection < mean_rmse(comparison, m));
     }
-    CHECK(projection < 1.2 * floor);  // 6 % under lights like those that its weights were fitted to
+    CHECK(projection < 1.2 * floor);  // this is 6 % under lights like those that chose the weights
   }
   const WorkflowComparison& plain = result.comparisons.front();
   CHECK(mean_rmse(plain, place_of(plain, "equation (3), weighted, 0.03")) <
@@ -90,7 +90,8 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
       CHECK(pictures.rmse[light] < 0.02);
       CHECK(pictures.ssim[light] > 0.9999);
     }
-  // The least error finds them by pictures, or starts from the projection.
+  // The search finds these materials from their pictures, or starts from the projection, which is exact for
+  // them.
   for (std::size_t i = 0; i < best.size(); ++i)
     CHECK(best[i].surface.metallic == Approx(projected[i].surface.metallic).margin(0.02));
 }
@@ -107,7 +108,7 @@ TEST_CASE("study workflows: a picture is its reflectances times the basis") {
   REQUIRE(expected.size() == combined.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
     CHECK(combined[i] == Approx(expected[i]).epsilon(1e-4).margin(1e-6));
-  // White diffuse is white at the nearest point under a headlight.
+  // The closest point of a white diffuse sphere is white under a headlight.
   const std::vector<float>& white = lit.basis(0, lit.headlight()).diffuse;
   CHECK(*std::max_element(white.begin(), white.end()) == Approx(1.0).epsilon(0.01));
 }
@@ -144,7 +145,7 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
   CHECK(result.sheets.size() == options.environments.size());
   const std::string csv = workflows_csv(options, result);
   const std::size_t methods = result.comparisons[0].methods.size() + result.comparisons[1].methods.size();
-  // Three environments and the headlight; 5 comments and the header.
+  // There are three environments and the headlight, 5 comments and the header.
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == 6 * methods * 4 + 6);
   CHECK_THAT(csv, Contains(",headlight,") && !Contains("nan"));
   options.jobs = 1;

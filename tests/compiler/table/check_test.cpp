@@ -1,4 +1,4 @@
-// Checks of tables: each kind of finding, on a table with only that fault.
+// This file tests checks of tables: each kind of finding, on a table with only that fault.
 #include "table/check.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace remap;
 
 namespace {
 
-// A table without faults: 10 widths x 5 speculars, with the line numbers of a file.
+// Returns a table without faults: 10 widths x 5 speculars, with the line numbers of a file.
 Table sound_table() {
   Table table;
   table.name = "t.csv";
@@ -79,7 +79,7 @@ TEST_CASE("check: a roughness curve that falls cannot be fitted") {
 
 TEST_CASE("check: jumps as in figures 6, 8 and 10 are reported with their row") {
   Table table = sound_table();
-  table.rows[12].specular2 *= 1.2;  // third of the five speculars at the third width
+  table.rows[12].specular2 *= 1.2;  // the third of the five speculars at the third width
   const auto found = of_kind(table, "jump");
   REQUIRE_FALSE(found.empty());
   bool named = false;

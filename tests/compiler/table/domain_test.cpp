@@ -1,4 +1,4 @@
-// The box of source parameters that a table covers, and tables with reversed roles.
+// This file tests the box of source parameters that a table covers, and tables with reversed roles.
 #include "table/domain.hpp"
 
 #include <random>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kAlphas = 20, kSpeculars = 10;
 
-// Makes a grid over alpha 0.05 to 1 and specular 0.1 to 1; `status_of` sets the status of each row.
+// Makes a grid over alpha 0.05 to 1 and specular 0.1 to 1. `status_of` sets the status of each row.
 template <typename StatusOf>
 Table grid(const StatusOf& status_of) {
   Table table;
@@ -45,7 +45,7 @@ TEST_CASE("domain: a width that the target cannot reach ends it, whatever the sp
 }
 
 TEST_CASE("domain: if the target's specular exceeds its bound, widths count more than specular") {
-  // As Beckmann to Ward: specular2 = (1 + 2 alpha) specular1 must stay within 1.
+  // This is like Beckmann to Ward: specular2 = (1 + 2 alpha) specular1 must stay within 1.
   const Table table =
       grid([](double alpha, double specular) { return clamped_where((1.0 + 2.0 * alpha) * specular > 1.0); });
   const Domain domain = table_domain(table);

@@ -1,4 +1,4 @@
-// The rule about the light of two renderers.
+// This file tests the rule about the light of two renderers.
 #include "table/light.hpp"
 
 #include <catch2/catch.hpp>
@@ -28,8 +28,8 @@ TEST_CASE("light: nothing is said within 1 %, a remark beyond it, an error beyon
         "by "
         "3.1 %: specular2 is 19 % larger for it, which is right only if the lights of the renderers differ "
         "(check "
-        "the diffuse of both models; --no-irradiance-matching leaves the light as it is, --accept-light goes "
-        "on)");
+        "the diffuse of both models; --no-irradiance-matching keeps the light unchanged, --accept-light "
+        "continues anyway)");
 }
 
 TEST_CASE("light: a table is checked by what its comments record") {

@@ -1,4 +1,5 @@
-// Tables of named parameters: reading and writing, their checks, and commands that refuse them.
+// This file tests tables of named parameters: reading and writing, their checks, and commands that refuse
+// them.
 #include "table/material_table.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// `count` rows of two source columns, all different.
+// Returns `count` different rows of two source columns.
 MaterialTable material_table(std::size_t count) {
   MaterialTable table;
   table.name = "n.csv";

@@ -1,4 +1,4 @@
-// Draws of rows, and figures of errors.
+// This file tests how rows are drawn, and the figures of errors.
 #include <array>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Tables: reading, writing, column maps, and every error with its place.
+// This file tests tables: reading, writing, column maps, and every error with its place.
 #include "table/table.hpp"
 
 #include <cmath>
@@ -137,8 +137,9 @@ TEST_CASE("table: a file is plain CSV; how it was made is beside it, and read ba
   CHECK(whole_text(parse_table_file(rows, path), rows) == "# source: a/b\n# note: c\": d\n" + rows);
   write_file(path, rows + "0.2,0.2,0.3,0.4,0,ok\n");
   REQUIRE(read_table(path).remarks.size() == 1);
-  CHECK_THAT(read_table(path).remarks[0], Catch::Contains("t.csv.json, which tells its models, has changed"));
-  write_file(path, "# source: c/d\n" + rows);  // its own comments hold
+  CHECK_THAT(read_table(path).remarks[0],
+             Catch::Contains("t.csv.json, which states its models, does not belong to this table"));
+  write_file(path, "# source: c/d\n" + rows);  // a table with comments ignores FILE.json
   CHECK(read_table(path).source.model == "c/d");
   CHECK_THROWS_WITH(require_new_table(path, false),
                     Catch::Contains("t.csv: already exists (--force overwrites)"));
@@ -212,7 +213,7 @@ TEST_CASE("table: a clamped row belongs to the limits of the target that it is a
                              RowStatus::kClamped, RowStatus::kFlat, RowStatus::kUnstable});
   CHECK(answer_rows(table).size() == 4);
   CHECK(table_text(table).find(rows.substr(rows.find("0.5"), 16)) != std::string::npos);
-  CHECK(answer_rows(parse_table(rows, "t.csv")).size() == 1);  // limits are not known
+  CHECK(answer_rows(parse_table(rows, "t.csv")).size() == 1);  // the limits are unknown
   const Table wide = parse_table("# target_alpha_limit: 0.9\n" + rows, "t.csv");
   CHECK(wide.limits.alpha == 0.9);
   CHECK_FALSE(wide.limits.specular.has_value());

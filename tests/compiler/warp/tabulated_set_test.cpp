@@ -1,4 +1,5 @@
-// Measured BRDFs: a model written in the format of the MERL database is read back as the same model.
+// This file tests measured BRDFs: a model that is written in the format of the MERL database is read back as
+// the same model.
 #include "warp/tabulated_set.hpp"
 
 #include <algorithm>
@@ -18,8 +19,8 @@ using namespace remap;
 
 namespace {
 
-// The directions at the center of a cell, from half and difference vector (Rusinkiewicz 1998), by rotation of
-// vectors. This is independent of the quadrature.
+// Returns the directions at the center of a cell, from half and difference vector (Rusinkiewicz 1998), by
+// rotation of vectors. This is independent of the quadrature.
 LocalGeometry geometry_of_cell(int half, int difference, int azimuth) {
   using std::numbers::pi;
   const double t = (half + 0.5) / 90.0, theta_h = t * t * pi / 2.0,

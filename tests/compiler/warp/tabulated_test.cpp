@@ -1,5 +1,5 @@
-// Features by samples and tabulated materials, compared with parametric materials and with
-// profiles whose distance is known.
+// This file compares features by samples and tabulated materials with parametric materials, and with profiles
+// whose distance is known.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,7 +39,8 @@ TabulatedMaterial tabulated(const WarpMaterial& material) {
   return table;
 }
 
-// RMS distance of the copies from the truth by the relative distance, relative to the template's spread.
+// Returns the RMS distance of the copies from the correct result by the relative distance, relative to the
+// template's spread.
 double error_of(const WarpSet& set, const AppearanceMatch& match, const MaterialRef& source,
                 const MaterialRef& target) {
   const FeaturePair features = appearance_features(set.source, set.target);
@@ -53,7 +54,7 @@ double error_of(const WarpSet& set, const AppearanceMatch& match, const Material
   return std::sqrt(sum / count) / radius;
 }
 
-// Profiles albedo * exp(-r / l) / (2 pi l^2), whose integral over the plane is the albedo.
+// Returns profiles albedo * exp(-r / l) / (2 pi l^2), whose integral over the plane is the albedo.
 TabulatedMaterial profiles(const std::vector<double>& radii,
                            const std::vector<std::array<double, 2>>& albedo_and_length) {
   TabulatedMaterial material;
@@ -106,7 +107,7 @@ TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds t
   const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
   exact.target.model = model.lobe;
   exact.target.is_dielectric = model.is_dielectric;
-  // Compares the features of the same texel by the plain distance, which needs no reference.
+  // Compares the features of the same texel. The plain distance needs no reference.
   const FeaturePair pair = appearance_features(set.target, exact.target, AppearanceDistance::kPlain);
   const WarpTexel texel = set.target.texels[1234];
   const Eigen::VectorXd by_schlick = features_of(pair.source, texel),
@@ -154,7 +155,8 @@ TEST_CASE("profiles: the distance of section 4, for different radii", "[warp]") 
   const auto& to = std::get<SampledFeatures>(pair.target);
   const Eigen::VectorXd first = features_of_samples(from, samples_of(from, a, 0)),
                         second = features_of_samples(to, samples_of(to, b, 0));
-  // The integral of (p exp(-r / l) - q exp(-r / m))^2 r dr, the same for three channels.
+  // The expected value is the integral of (p exp(-r / l) - q exp(-r / m))^2 r dr, the same for three
+  // channels.
   const double l = 0.5, m = 0.4, p = 0.8 / (2.0 * std::numbers::pi * l * l),
                q = 0.6 / (2.0 * std::numbers::pi * m * m);
   const double joint = 1.0 / l + 1.0 / m;

@@ -1,5 +1,5 @@
-// Tests warps on materials with a known result, with a brute-force quadrature, and on cases with an exact
-// result.
+// This file tests warps on materials with a known result, with a brute-force quadrature, and on cases with an
+// exact result.
 #include "warp/warp.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace remap;
 
-// The distance by direct quadrature of the BRDF at both alphas, which is independent of the tables.
+// Returns the distance by direct quadrature of the BRDF at both alphas, which is independent of the tables.
 double brute_distance(const Eigen::VectorXd& weights, const WarpTexel& a, const WarpTexel& b) {
   const auto directions = half_vector_quadrature();
   const auto reflectance = [](const WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
@@ -35,12 +35,12 @@ double brute_distance(const Eigen::VectorXd& weights, const WarpTexel& a, const 
   return std::sqrt(sum);
 }
 
-// Figures of a fit on a set, in % of the template's spread unless stated otherwise.
+// Figures holds the figures of a fit on a set, in % of the template's spread unless stated otherwise.
 struct Figures {
-  double error = 0.0;        // exact copy to the truth
-  double table_error = 0.0;  // compiled converter to the exact copy
-  double bins = 0.0;         // share of the template's occupied bins that the copy uses
-  double folds = 0.0;        // share of texels
+  double error = 0.0;        // distance of the exact copy from the correct result
+  double table_error = 0.0;  // distance of the compiled converter from the exact copy
+  double bins = 0.0;         // fraction of the template's occupied bins that the copy uses
+  double folds = 0.0;        // fraction of texels
   std::vector<Eigen::VectorXd> result;
 };
 
@@ -78,8 +78,8 @@ Figures measure(const WarpSet& set, const WarpFit& fit) {
   return figures;
 }
 
-// The share of texels for which the results of the texel and of its neighbor in the source's appearance space
-// are more than a quarter of the spread apart.
+// Returns the fraction of torn texels. A texel is torn if its result and the result of its neighbor in the
+// source's appearance space are more than a quarter of the spread apart.
 double tears(const WarpSet& set, const WarpFit& fit) {
   const FeaturePair features = appearance_features(set.source, set.target);
   const auto copy = copy_exactly(fit, set.source, set.target);
@@ -113,7 +113,8 @@ TEST_CASE("features: distances equal those of the quadrature", "[warp]") {
   for (std::size_t i = 0; i < 40; ++i) {
     const auto &a = set.source.texels[97 * i], &b = set.target.texels[53 * i + 7];
     const double distance = (features_of(features.source, a) - features_of(features.target, b)).norm();
-    // Interpolation between the 64 nodes of alpha has an error of 1e-3 of a lobe; the basis of 14 has less.
+    // Interpolation between the 64 nodes of alpha has an error of 1e-3 of a lobe. The basis of 14 has a
+    // smaller error.
     CHECK(distance == Approx(brute_distance(weights, a, b)).epsilon(5e-3));
   }
 }
@@ -128,7 +129,7 @@ TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
                                       (features_of(features.source, set.source.texels[i]) - space.mean) /
                                       space.radius;
     const auto position = coordinates_of(coordinates, set.source.texels[i]);
-    for (std::size_t k = 0; k < 3; ++k)  // float tables
+    for (std::size_t k = 0; k < 3; ++k)  // the tables hold floats
       CHECK(position[k] == Approx(projected[static_cast<Eigen::Index>(k)]).margin(1e-5));
   }
   CHECK(dimension_of(space) == 3);
@@ -144,7 +145,7 @@ TEST_CASE("affine: strokes related by an affine map give that map", "[warp]") {
   PointSets sets;
   sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
   sets.source_centres = Points(4, 2);
-  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large, so that the prior is negligible
+  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large values make the prior negligible
   Eigen::MatrixXd linear(2, 2);
   linear << 0.5, 1.25, -2.0, 0.75;
   const Eigen::RowVectorXd offset = Eigen::RowVector2d(3.0, -4.0);
@@ -175,7 +176,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
       CHECK(figures.back().folds == 0.0);
       CHECK(tears(set, fit) <= 0.01);
       CHECK(figures.back().table_error <
-            3.0);  // few texels: neighbors are farther apart than in a map of 256^2
+            3.0);  // with few texels, neighbors are farther apart than in a map of 256^2
       CHECK(byte_count(fit.compiled) <= 250000);
       error += figures.back().error / 3.0;
       bins += figures.back().bins / 3.0;
@@ -183,7 +184,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
     }
     for (std::size_t k = 0; k < 3; ++k) moved += change(figures[k], figures[(k + 1) % 3], radius) / 3.0;
     CAPTURE(error, bins, moved);
-    CHECK(error < 24.0);  // unrelated texels: 141
+    CHECK(error < 24.0);  // unrelated texels would give 141
     CHECK(bins > 0.8);
     CHECK(moved < 14.0);
   }
@@ -269,7 +270,8 @@ TEST_CASE("warp: few strokes do not determine all directions, and some contradic
   warned({strokes[0]}, 0, "strokes do not determine direction 1 of 2");
   CHECK_THAT(warned({strokes[0], strokes[1]}, 1, "strokes do not determine direction 2 of 2"),
              !Catch::Contains("direction 1 of 2"));
-  // The first region again, by other texels, with the template's opposite corner as its partner.
+  // The second stroke marks other texels of the first region. Its partner is the opposite corner of the
+  // template.
   std::vector<StrokePair> twice = strokes_of(set, 0);
   twice.push_back({strokes_of(set, 1)[2].source, strokes_of(set, 1)[3].target});
   warned(twice, 2, "strokes contradict each other");
@@ -343,7 +345,7 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
         refused("\"indices\": \"", "\"indices\": \"////", "whole numbers of 2 bytes");
         refused("\"palette\": \"", "\"palette\": \"AAAA", "whole numbers of 4 bytes");
         refused("\"kind\": \"copied\"", "\"kind\": \"other\"", "blended or copied");
-        // What base64 hides.
+        // These changes are hidden in base64.
         const auto invalid = [&](const auto& change, const std::string& message) {
           CompiledWarp warp = fit.warp;
           change(std::get<CopiedNodes>(warp.table.entries));

@@ -1,4 +1,5 @@
-// adapters/check.py finds each fault of the fake worker, and none in a correct one.
+// This file tests that adapters/check.py finds each fault of the fake worker, and no fault in a correct
+// worker.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,7 @@ ProcessResult check(const std::string& command) {
               "--resolution", "24", command});
 }
 
-// The results of all failed checks, `check: words`, a line each.
+// Returns the results of all failed checks, `check: words`, one per line.
 std::string wrong_words(const std::string& fault) {
   const FakeSession session;
   const ProcessResult result = check(session.command(fault));

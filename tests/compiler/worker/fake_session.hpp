@@ -1,4 +1,4 @@
-// Shared by the tests of workers: the fake worker with a fault, in its own folder.
+// This file holds what the tests of workers share: the fake worker with a fault, in its own folder.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace remap {
 
-// Whether the process has ended, or is a zombie of its adoptive parent.
+// Returns true if the process has ended, or is a zombie of its new parent.
 inline bool is_gone(pid_t id) {
   std::ifstream file("/proc/" + std::to_string(id) + "/stat");
   std::string text;
@@ -57,7 +57,8 @@ class FakeSession {
   }
   std::size_t pictures() const { return log_lines("picture").size(); }
 
-  // Waits for the end of every process in the workers' log; false if one runs for ten more seconds.
+  // Waits for the end of every process in the workers' log. Returns false if a process still runs after ten
+  // seconds.
   bool nobody_is_left() const {
     for (const std::string& id : log_lines("process")) {
       int tries = 0;
@@ -79,7 +80,7 @@ inline Material fake_material(double alpha = 0.2) {
 
 inline constexpr Scene kSmallScene{32, 1, {}};
 
-// Returns the message of the kInput error that `work` throws; another kind fails the test.
+// Returns the message of the kInput error that `work` throws. An error of another kind fails the test.
 template <typename Work>
 std::string input_error(const Work& work) {
   try {

@@ -1,11 +1,11 @@
-// A worker with a chosen fault: it renders the built-in GGX behind the protocol. It shares no protocol code
-// with the worker side under test.
+// This program is a worker with a chosen fault. It renders the built-in GGX behind the protocol, and shares
+// no protocol code with the code under test.
 //
 //   fake_worker [--fault NAME] [--after N] [--of all] [--version TEXT] [--log FILE]
 //
-// The fault strikes at the picture after the first N of this process, or of all processes of the log. To the
-// log go two lines for each picture (its file, its parameters), the process ids of the worker and of its
-// children, and at the start of each worker the number of those that run.
+// The fault occurs at the picture after the first N of this process, or with `--of all`, of all processes in
+// the log. The log gets two lines for each picture (its file, its parameters), the process ids of the worker
+// and of its children, and at the start of each worker the number of workers that run.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,7 +48,7 @@ std::vector<std::string> logged(const std::string& opening) {
   return lines;
 }
 
-// Those of the log that run, or of which nobody has seen the end.
+// Returns how many workers of the log still run, or have not been seen to end.
 std::ptrdiff_t crowd() {
   const std::vector<std::string> ids = logged("process ");
   return std::count_if(ids.begin(), ids.end(),
@@ -111,8 +111,8 @@ void spoil(const json& request, remap::Image* image) {
     move([&](std::size_t row, std::size_t column) { return (row + 1) % side * side + column; });
 }
 
-// Reads the mesh of a scene and reports whether its counts are complete, and its vertices and normals those
-// of the torus (radii 0.68 and 0.3, its axis 40 degrees from +z to +y).
+// Reads the mesh of a scene. Reports whether its counts are complete, and whether its vertices and normals
+// lie on the torus (radii 0.68 and 0.3, its axis 40 degrees from +z to +y).
 std::string mesh_report(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
@@ -124,7 +124,7 @@ std::string mesh_report(const std::string& path) {
   const double tilt = 40.0 / 180.0 * 3.14159265358979, axis[3] = {0.0, std::sin(tilt), std::cos(tilt)};
   double worst = 0.0;
   for (std::size_t i = 0; i < vertices; ++i) {
-    float v[6];  // position, normal
+    float v[6];  // position and normal
     file.read(reinterpret_cast<char*>(v), sizeof(v));
     const double height = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
     double flat[3], around = 0.0;
@@ -158,7 +158,8 @@ remap::Image picture(const json& request) {
     log_line("mesh " + scene.at("shape").get<std::string>() + " " + mesh_report(scene.at("mesh")));
     place.shape = remap::Shape::kTorus;
   }
-  if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;  // no centre among them
+  // no sample is at the centre of a pixel
+  if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;
   if (has_fault("no-square")) place.light.distance = 3.0;
   remap::Material material{"mitsuba/ggx-plain", {}};
   if (request.at("model") != "fake/ggx") throw std::runtime_error("unknown model (choose fake/ggx)");
@@ -190,7 +191,7 @@ remap::Image picture(const json& request) {
 // Applies faults of the process and of the protocol. Returns true if it has answered.
 bool misbehave(const json& request) {
   std::cerr << "rendering number " << rendered << std::endl;
-  if (has_fault("deaf")) {  // runs on without its pipes
+  if (has_fault("deaf")) {  // keeps running without its pipes
     for (int end = 0; end < 3; ++end) ::close(end);
     std::this_thread::sleep_for(std::chrono::hours(1));
   }
@@ -200,7 +201,7 @@ bool misbehave(const json& request) {
     std::ofstream(request.at("image").get<std::string>()) << "half";
     std::exit(0);
   }
-  if (has_fault("launcher")) {  // ends what it has started elsewhere
+  if (has_fault("launcher")) {  // if asked to end, it ends what it has started elsewhere
     std::signal(SIGTERM, [](int) {
       log_line("told to end");
       std::_Exit(0);
@@ -262,8 +263,8 @@ void answer(const json& request) {
   }
 }
 
-// Starts a child process, as renderers do; it keeps running unless remapc ends it. With a session of its own
-// it has left the group of the worker.
+// Starts a child process, as renderers do. It runs until remapc ends it. If it has its own session, it is no
+// longer in the group of the worker.
 void start_child(bool has_session) {
   const pid_t child = ::fork();
   if (child == 0) {

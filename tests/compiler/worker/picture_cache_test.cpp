@@ -1,4 +1,4 @@
-// The picture cache: versions, requests, damaged files and threads.
+// This file tests the picture cache: versions, requests, damaged files and threads.
 #include <cmath>
 #include <limits>
 
@@ -91,7 +91,7 @@ TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake: cache: " + files[0].string() + ": ") &&
                                 Contains("(the picture is rendered again)"));
-    CHECK(read_file(files[0]) == whole);  // repaired
+    CHECK(read_file(files[0]) == whole);  // the file is repaired
   }
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("worker list: the user's entries precede shipped ones, and errors name
   CHECK(entries[0].folder == list.parent_path().string());
   remap::write_file(list, R"({"workers": [{"name": "a/b", "command": "run"}]})");
   CHECK_THROWS_WITH(read_worker_list(list), Contains("workers[0].name: expected a name without /"));
-  CHECK_THROWS_WITH(parse_worker("ours"), Contains("cannot be read as NAME=COMMAND"));
+  CHECK_THROWS_WITH(parse_worker("ours"), Contains("is not of the form NAME=COMMAND"));
   CHECK_THROWS_WITH(known_workers({"a=b", "a=c"}), Contains("a was given twice"));
   const auto known = known_workers({"mitsuba3=mine --fast"});
   const auto mine =

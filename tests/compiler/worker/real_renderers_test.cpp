@@ -1,5 +1,6 @@
-// The proof: real renderers against the built-in hub. Skipped, with a message, where one is not installed
-// (scripts/renderers); REMAP_REQUIRE names those whose absence is a failure.
+// This file compares real renderers with the built-in hub. If a renderer is not installed
+// (scripts/renderers), its test is skipped with a message. The environment variable REMAP_REQUIRE lists
+// renderers whose absence is a failure.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,7 @@ WorkerSettings settings() {
   return settings;
 }
 
-// Where a model of the worker `name` can be rendered. Else skips.
+// Returns true if a model of the worker `name` can be rendered. Otherwise skips the test.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
     renderers.model(name + "/" + model);
@@ -35,11 +36,11 @@ bool is_here(const RendererSet& renderers, const std::string& name, const std::s
   }
 }
 
-// Differences of two pictures, relative to the brightest pixel of `b`.
+// A Disagreement holds differences of two pictures, relative to the brightest pixel of `b`.
 struct Disagreement {
   double rms = 0.0;      // over the whole picture
-  double inside = 0.0;   // largest, where the view is not grazing
-  double largest = 0.0;  // anywhere
+  double inside = 0.0;   // largest difference except at grazing views
+  double largest = 0.0;  // largest difference
 };
 
 // At the silhouette, floats compute a cosine of 1e-3 with a relative error of 1e-4.
@@ -73,7 +74,8 @@ Table small_sweep(const Renderer& renderers, const std::string& source, const st
   return run_sweep(renderers, options, {});
 }
 
-// Checks the largest change of alpha, and the relative one of specular, over rows within the target's range.
+// Checks the largest change of alpha, and the largest relative change of specular, over rows within the
+// target's range.
 void check_identity(const Table& table, double alpha_tolerance, double specular_tolerance) {
   for (const TableRow& row : table.rows) {
     INFO("alpha " << row.alpha1 << " specular " << row.specular1);
@@ -99,7 +101,7 @@ TEST_CASE("real renderers: Mitsuba 3 renders the hub's ggx and beckmann", "[slow
                          {256, 1, {angle, 3.0}});
         INFO(model << " alpha " << alpha << " light " << angle);
         CHECK(off.rms < 1e-5);
-        // One pixel on the flank of a highlight of alpha 0.03, where Mitsuba's floats are off by 1.2e-5.
+        // One pixel on the flank of a highlight of alpha 0.03 differs by 1.2e-5, because Mitsuba uses floats.
         CHECK(off.inside < 2e-5);
         worst = {std::max(worst.rms, off.rms), std::max(worst.inside, off.inside),
                  std::max(worst.largest, off.largest)};
@@ -126,7 +128,7 @@ TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub 
   };
   for (const double angle : {0.0, 60.0}) {
     const Scene scene{128, 1, {angle, 3.0}, 0, Shape::kTorus};
-    // The margin covers facets (1e-4), and pixels at the edges of the shape and of its shadow.
+    // The margin allows for facets (1e-4), and for pixels at the edges of the shape and of its shadow.
     CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 5e-3);
   }
 }
@@ -160,7 +162,8 @@ TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking
   options.target = "mitsuba/ggx-plain";
   options.objective = objective_preset("paper");
   options.resolution = 128;
-  // Found at 128^2 by another search, on formulas in NumPy: separable Smith against height-correlated.
+  // Another search found these values at 128^2, with formulas in NumPy. They convert from separable to
+  // height-correlated Smith shadowing.
   const std::vector<std::array<double, 3>> curve = {
       {0.3, 0.30007, 1.0003}, {0.6, 0.60543, 1.0114}, {0.75, 0.77122, 1.0363}, {0.85, 0.89633, 1.0723}};
   for (const auto& point : curve) options.samples.push_back({point[0], 0.5});
@@ -181,8 +184,8 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
   options.target = "threejs-r187/standard-metal";
   options.objective = objective_preset("paper");
   options.resolution = 256;
-  // Found by a search in Python over 37 pictures of F0 0.04 and a parabola: alpha, three.js' roughness, F0
-  // for each unit of Radiance's specularity.
+  // These were found by a search in Python over 37 pictures of F0 0.04 and a parabola. They are alpha,
+  // three.js' roughness, and F0 for each unit of Radiance's specularity.
   const std::vector<std::array<double, 3>> curve = {{0.05, 0.2303, 1.289}, {0.1, 0.3243, 1.267},
                                                     {0.2, 0.4508, 1.196},  {0.4, 0.6057, 1.011},
                                                     {0.6, 0.7097, 0.863},  {0.9, 0.8348, 0.733}};
@@ -191,13 +194,14 @@ TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the cu
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const double roughness = from_alpha(RoughnessEncoding::kRoughness, table.rows[i].alpha2);
     CHECK(roughness == Approx(curve[i][1]).margin(2e-3));
-    // The search took F0 in proportion, which it is but for the light that Schlick's Fresnel leaves at 0.
+    // The search assumed that pictures are proportional to F0. This is true except for the light that
+    // Schlick's Fresnel gives at F0 0.
     CHECK(table.rows[i].specular2 == Approx(0.04).epsilon(0.02));
     CHECK(table.rows[i].status == RowStatus::kOk);
   }
-  // Probes of both laws (9 and 9) and of the family (27); a picture a width and two a sphere (6 and 12);
-  // three at a node, of which each width looks at a window of twelve and two neighbours, and all at every
-  // sixth of 110.
+  // The pictures are probes of both laws (9 and 9) and of the family (27), one per width and two per sphere
+  // (6 and 12), and three per node. Each width needs a window of twelve nodes and two neighbours. The coarse
+  // search needs every sixth of 110 nodes.
   const std::size_t pictures = renderers.pictures().rendered;
   CHECK(pictures <= 9 + 9 + 27 + 6 + 12 + 3 * (6 * 14 + 19));
   std::cout << "Radiance to three.js, six widths at 256^2: " << pictures << " pictures\n";
@@ -214,10 +218,10 @@ TEST_CASE(
       const auto with = [&](const std::string& model) {
         return Material{model, {{"exponent", {exponent}}, {"specular", {0.6}}, {"diffuse", {0.3}}}};
       };
-      // Its framebuffer has 8 bits, and its sphere is a grid.
+      // MuJoCo's framebuffer has 8 bits, and its sphere is a grid.
       const Disagreement off =
           disagreement(renderers, with("mujoco/material"), with("legacy/blinn-phong"), {96, 1, {angle, 3.0}});
       CHECK(off.rms < 0.002);
-      CHECK(off.inside < 0.03);  // one pixel, where the light ends and the lobe is cut
+      CHECK(off.inside < 0.03);  // at one pixel at the edge of the light, where the lobe is cut off
     }
 }

@@ -1,4 +1,4 @@
-// Failing workers: their error messages, and that no process or file remains.
+// This file tests failing workers: their error messages, and that no process or file remains.
 #include <map>
 #include <set>
 #include <sys/wait.h>
@@ -136,8 +136,9 @@ TEST_CASE("worker: those that are lost cost nothing but their processes", "[slow
     CHECK(lost >= 2);
     CHECK(session.pictures() == 12);
     const std::vector<std::string> files = session.log_lines("file");
-    CHECK(std::set(files.begin(), files.end()).size() == 12);           // a name of its own each
-    CHECK(session.log_lines("process").size() <= 2 + lost + lost / 2);  // the third for a picture is new
+    CHECK(std::set(files.begin(), files.end()).size() == 12);  // each picture has its own file name
+    // the third process for a picture is new
+    CHECK(session.log_lines("process").size() <= 2 + lost + lost / 2);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("worker fake, request fake/ggx alpha ") &&
                                 Contains("last lines of its log: ") &&
@@ -168,7 +169,7 @@ TEST_CASE("worker: a picture that meets the end of two processes is rendered by 
   WorkerSettings settings = session.settings();
   settings.processes = 3;
   const WorkerRenderer renderer(session.entry("exit", "--after 1"), settings);
-  // Three processes, each with its one picture behind it.
+  // Three processes run. Each has already made the one good picture that it can make.
   run_parallel(3, 3, [&](std::size_t i) {
     renderer.render(fake_material(0.1 + 0.1 * static_cast<double>(i)), kSmallScene);
   });

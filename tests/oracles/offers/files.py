@@ -1,4 +1,4 @@
-"""What is converted: shared OBJ files, and paints for MuJoCo."""
+"""Prepares the files that are converted: shared OBJ files, and paints for MuJoCo."""
 import os
 import pathlib
 import shutil
@@ -17,7 +17,7 @@ QUAD = ("mtllib {mtl}\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 
 
 
 def obj_files(scratch):
-    """(label, OBJ, materials) of the shared files, copied to a folder that may be written to."""
+    """Returns (label, OBJ, materials) of the shared files, copied to a folder that may be written to."""
     files = []
     for name in ("box-multiple-materials", "box", "cube_usemtl", "box-complex-material", "fuze"):
         folder = pathlib.Path(shutil.copytree(ASSETS / "mtl" / name, scratch / name))
@@ -27,20 +27,22 @@ def obj_files(scratch):
     nut.mkdir()
     for image in ("nut-specular.jpg", "nut-diffuse.jpg", "nut-bump.jpg"):
         shutil.copy(ASSETS / "obj" / image, nut)
-    # The file has neither Ns nor Ks: what any program makes of that is a guess. These are Blender's defaults of old.
+    # The file has neither Ns nor Ks, so any result of a program would be a guess. These are the old defaults of
+    # Blender.
     (nut / "nut.mtl").write_text((ASSETS / "obj" / "nut.mtl").read_text() + "\nNs 96.08\nKs 0.5 0.5 0.5\nKd 1 1 1\n")
     (nut / "nut.obj").write_text(QUAD.format(mtl="nut.mtl", name="Tube1"))
     files.append(("nut, with Ns 96.08, Ks 0.5 added", nut / "nut.obj", mtl_materials(nut / "nut.mtl")))
     return files
 
 
-MUJOCO = {  # of MuJoCo's default, and shiny and dull paint
+MUJOCO = {  # MuJoCo's default, a shiny paint and a dull paint
     "default": ("0.8 0.3 0.2 1", 0.5, 0.5), "glossy": ("0.1 0.3 0.6 1", 0.8, 0.9), "dull": ("0.5 0.5 0.5 1", 0.3, 0.1),
     "dark": ("0.05 0.05 0.05 1", 1.0, 0.3), "no highlight": ("0.6 0.7 0.4 1", 0.0, 0.5)}
 
 
 def mujoco_paints():
-    """The paints above, and the 24 materials of OpenGL, whose specular is grey here as MuJoCo's is."""
+    """Returns MuJoCo's paints and the 24 materials of OpenGL. The specular of the materials is grey here, as in
+    MuJoCo."""
     paints = dict(MUJOCO)
     for number, (n, kd, ks) in enumerate(opengl_materials()):
         paints[f"opengl_{number}"] = (" ".join(map(str, kd)) + " 1", round(sum(ks) / 3, 4), n / 128)

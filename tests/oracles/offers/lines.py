@@ -1,4 +1,5 @@
-"""Compiles the lines in C and C++ that the pages offer, inside small programs, and compares what they print with what the pages state."""
+"""Compiles the C and C++ code that the pages offer, inside small programs, and compares the output with what the
+pages state."""
 import concurrent.futures
 import pathlib
 import re
@@ -10,7 +11,8 @@ from offers.pages import PAGES, SHORT_FORMS, examples
 
 PROGRAMS = pathlib.Path(__file__).parent / "lines"
 FLAGS = ["-Wall", "-Wextra", "-Werror"]
-# Page, program, the header that must be there (of the package that has it), libraries, and the values that are printed.
+# Each case has the page, the program, the required header (and its package), libraries, and the values that the
+# program must print.
 CASES = [("assimp.md", "assimp.cpp", "assimp/scene.h", "libassimp-dev", ["-lassimp"], slice(0, 3)),
          ("assimp.md", "assimp_fbx.cpp", "assimp/material.h", "libassimp-dev", ["-lassimp"], slice(3, 6)),
          ("blender-obj.md", "blender-obj.cpp", None, None, [], slice(0, 4)),
@@ -25,12 +27,12 @@ def blocks_of(page):
 
 
 def with_lines(program, blocks):
-    """The program with a block in place of each comment `lines NUMBER`, which formatting keeps."""
+    """Returns the program with a code block instead of each comment `lines NUMBER`, which formatting keeps."""
     return re.sub(r"(?m)^ *(?:// lines (\d)|/\* lines (\d) \*/)$", lambda match: blocks[int(match[1] or match[2])], program)
 
 
 def check(case, compiler, folder):
-    """What is wrong, and what is missing."""
+    """Returns what is wrong, and what is missing."""
     page, name, header, package, libraries, wanted = case
     language = ["-x", "c", "-std=c99"] if name.endswith(".c") else ["-x", "c++", "-std=c++17"]
     if header is not None:
@@ -53,7 +55,7 @@ def check(case, compiler, folder):
 
 
 def check_lines(compiler, pages):
-    """1: something is wrong; 77: nothing is, and a package is missing; 0."""
+    """Returns 1 if something is wrong, 77 if only a package is missing, otherwise 0."""
     cases = [case for case in CASES if case[0] in pages] if pages else CASES
     if not cases:
         print(f"{' '.join(pages)}: no such page with lines in C or C++")

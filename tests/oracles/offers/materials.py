@@ -1,4 +1,4 @@
-"""Materials as files have them: MTL, glTF, USD and FBX."""
+"""Reads materials from files: MTL, glTF, USD and FBX."""
 import base64
 import io
 import json
@@ -43,7 +43,8 @@ def mtl_materials(path):
 
 
 def mtl_source(material, points, kd_times_map=True, decode=False):
-    """Blinn as the MTL says. Below exponent 1 there is no highlight: programs that do not know it write 0."""
+    """Returns Blinn as the MTL means it. Below exponent 1 there is no highlight: programs that do not know the
+    exponent write 0."""
     n = material.get("ns", 0.0)
     kd, ks = material.get("kd", np.full(3, 0.8)), material.get("ks", np.zeros(3)) * (n >= 1)
     kd, ks = (linear(kd), linear(ks)) if decode else (kd, ks)
@@ -57,7 +58,7 @@ def mtl_source(material, points, kd_times_map=True, decode=False):
 
 
 def gltf_parts(path):
-    """JSON of a .gltf or .glb, and a function that gives its images."""
+    """Returns the JSON of a .gltf or .glb, and a function that returns its images."""
     data, binary = path.read_bytes(), b""
     if data[:4] == b"glTF":
         length = int.from_bytes(data[12:16], "little")
@@ -110,7 +111,7 @@ def usd_target(inputs):
 
 
 def fbx_material(path):
-    """(n, Kd, Ks) of the last material of a binary FBX file; the ones before are templates."""
+    """Returns (n, Kd, Ks) of the last material of a binary FBX file. Earlier ones are templates."""
     data, found = path.read_bytes(), {}
     for match in re.finditer(rb"S....(DiffuseColor|DiffuseFactor|SpecularColor|SpecularFactor|ShininessExponent)S", data, re.DOTALL):
         position, numbers = match.end() - 1, []

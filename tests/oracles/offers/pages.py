@@ -1,4 +1,4 @@
-"""The pages of docs/adopting: the constants in their lines, their blocks of code, their tables."""
+"""Reads and writes the pages of docs/adopting: the constants in their code, their code blocks, their tables."""
 import math
 import pathlib
 import re
@@ -12,14 +12,15 @@ STRENGTH = re.compile(r"(?P<a>\d+\.\d+)(?P<s>f?) \* (?P<k>[\w.\[\]]+) / "
                       r"\((?:(?P<t>\d+\.\d+)f? \* )?(?P<n>n|exponent) \+ (?P<b>\d+\.\d+)f?\)")
 
 
-# roughness = (a / (e n + b))^(1/4), F0 = min(1, c Ks / (e n + d)): [a, b, c, d, e] (docs/decisions/060-short-forms.md)
+# [a, b, c, d, e] stands for roughness = (a / (e n + b))^(1/4), F0 = min(1, c Ks / (e n + d))
+# (docs/decisions/060-short-forms.md).
 SHORT_FORMS = {"blinn": [1.55, 4.17, 6.02, 1.86, 1.0], "phong": [1.44, 4.26, 6.06, 2.46, 2.83]}
 
 
-# Pages about whole materials have no short form. Their numbers are those of the descriptions of the translations, as they stand there.
+# Pages about whole materials have no short form. Their numbers must be those in the descriptions of the translations.
 DESCRIPTIONS = ROOT / "compiler" / "materials" / "descriptions"
 SHEEN = ["1.95", "0.385", "1.1", "8.3", "0.8", "0.745", "0.28", "0.855", "0.21"]
-# Page: its descriptions, what these have, what the page has.
+# For each page: the names of its descriptions, texts in the descriptions, and texts in the page.
 WHOLE = {"blender-materialx.md": ("principled_to_open_pbr_surface", ["coat_darkening = 0", "0.9"], ["coat_darkening", "0.9"]),
          "simready-openpbr.md": ("UsdPreviewSurface_to_open_pbr_surface", ["coat_darkening = 0", "n / (w / new_coat_ior + 1 - w)"],
                                  ['"coat_darkening": 0.0', "ior / (weight / ior + 1 - weight)"]),
@@ -32,7 +33,7 @@ WHOLE = {"blender-materialx.md": ("principled_to_open_pbr_surface", ["coat_darke
 
 
 def check_whole(page, text):
-    """Returns what a page about whole materials lacks, and what its description no longer has."""
+    """Returns what is missing in a page about whole materials, and what its description no longer contains."""
     files, described, stated = WHOLE[page]
     source = "".join((DESCRIPTIONS / f"{name}.txt").read_text() for name in ([files] if isinstance(files, str) else files))
     return ([f"the description no longer has '{words}' (change the page as well)" for words in described if words not in source]
@@ -41,7 +42,8 @@ def check_whole(page, text):
 
 
 def with_constants(text, forms):
-    """The text with every width and strength at the constants of its form: Phong's has a factor before n."""
+    """Returns the text with the constants of each form in its widths and strengths. Phong's form has a factor before
+    n."""
     def replaced(match, first, second):
         form = forms["phong" if match["t"] else "blinn"]
         number = lambda value: f"{float(f'{value:.3g}')}{match['s']}"  # noqa: E731
@@ -54,7 +56,7 @@ def with_constants(text, forms):
 
 
 def examples(forms):
-    """What the test of each page states, as it should be printed."""
+    """Returns the values that each page states for its test, in the form in which the test must print them."""
     def width(lobe, n):
         return (forms[lobe][0] / (forms[lobe][4] * n + forms[lobe][1])) ** 0.25
 
@@ -64,7 +66,7 @@ def examples(forms):
     def ior(f0):
         return (1 + math.sqrt(f0)) / (1 - math.sqrt(f0))
 
-    ks = ((0.5 + 0.055) / 1.055) ** 2.4  # linear, of the display value 0.5
+    ks = ((0.5 + 0.055) / 1.055) ** 2.4  # linear value of the display value 0.5
     f0, phong = strength("blinn", 96.08, 0.5), strength("phong", 96.08, 0.5)
     blinn = [f"{width('blinn', 96.08):.3f}", f"{f0:.4f}", f"{0.64 / (1 - f0):.3f}"]
     return {"assimp.md": [*blinn, f"{width('phong', 96.08):.3f}", f"{phong:.4f}", f"{width('phong', 400):.3f}"],
@@ -103,7 +105,7 @@ def check_constants(record):
 
 
 def block(page, name):
-    """The code of a page that stands under the comment <!-- applied: NAME -->."""
+    """Returns the code block of a page that follows the comment <!-- applied: NAME -->."""
     found = re.search(rf"<!-- applied: {re.escape(name)} -->\n```\w+\n(.*?)```", (PAGES / page).read_text(), re.DOTALL)
     if not found:
         sys.exit(f"docs/adopting/{page}: no code block under <!-- applied: {name} -->")

@@ -1,4 +1,4 @@
-"""Sheets of spheres for the pages."""
+"""Draws sheets of spheres for the pages."""
 import numpy as np
 from PIL import Image, ImageDraw
 
@@ -7,7 +7,8 @@ from offers.spheres import Sphere
 
 
 def picture(path, rows, columns, sets):
-    """rows: (name, source of points, {column: target of points}). Each sphere under both sets of lights."""
+    """Draws each sphere under both sets of lights. `rows` holds (name, source of points, {column: target of points}).
+    """
     side, gap, head = 96, 6, 16
     spheres = [Sphere(lights, side) for lights in sets.values()]
     width = len(spheres) * (len(columns) + 1) * (side + gap) + gap

@@ -1,4 +1,4 @@
-"""Programs of npm and PyPI: installed, changed by the blocks of the pages, and run."""
+"""Installs programs of npm and PyPI, changes them by the code blocks of the pages, and runs them."""
 import json
 import os
 import pathlib
@@ -18,7 +18,7 @@ class Skip(Exception):
 
 
 def run(command, install=False, **options):
-    """Standard output. What fails to install is skipped; what fails to convert is an error."""
+    """Returns the standard output. A failing installation is skipped, a failing conversion is an error."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=600, **options)
     if done.returncode != 0:
         message = f"{' '.join(map(str, command[:2]))} failed: {(done.stderr or done.stdout).strip()[-600:]}"
@@ -29,7 +29,8 @@ def run(command, install=False, **options):
 
 
 def edit(path, anchor, text, how):
-    """Puts text before, after or in place of the only line that has the anchor, or at the end of the file if it has the anchor."""
+    """Puts text before or after the only line that has the anchor, or replaces the anchor by it. With `append`, it
+    puts the text at the end of a file that has the anchor."""
     lines = path.read_text().splitlines()
     found = [number for number, line in enumerate(lines) if anchor in line]
     if how == "append" and found:
@@ -45,7 +46,7 @@ def edit(path, anchor, text, how):
 
 
 def python_of(cache, name, packages):
-    """The Python of an environment that has the packages."""
+    """Returns the Python of an environment that has the packages."""
     python = cache / name / "bin" / "python"
     if not python.exists():
         run([sys.executable, "-m", "venv", cache / name], install=True)
@@ -58,7 +59,7 @@ def packages_of(python, package):
 
 
 class PythonProgram:
-    """A package of PyPI. Each variant is a copy that stands first in PYTHONPATH."""
+    """Holds a package of PyPI. Each variant is a copy that comes first in PYTHONPATH."""
 
     def __init__(self, cache, name, package, variants):
         self.python = python_of(cache, name, [f"{name}=={VERSIONS[name]}", *(["pillow"] if name == "trimesh" else [])])

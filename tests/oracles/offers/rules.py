@@ -1,4 +1,4 @@
-"""The rules of today and the short form by their formulas, and tables of their errors."""
+"""Holds the current rules of programs and the short form as formulas, and makes tables of their errors."""
 import math
 import re
 import sys
@@ -29,7 +29,7 @@ def core_target(n, kd, ks, lobe="blinn"):
     return Target(np.clip(kd + t.f0 - 0.04 * share, 0, 1), t.roughness, np.full(3, 0.04), 1.0, 1 - share)
 
 
-FORMULAS = {  # page: lobe, [(label, rule)]
+FORMULAS = {  # for each page: the lobe and [(label, rule)]
     "assimp, glTF export": ("blinn", plain(lambda n, ks: 1 - (ks @ LUMA) * min(1, math.sqrt(n / 1000)))),
     "assimp, FBX import": ("phong", plain(lambda n, ks: 1 - math.sqrt(n) / 10)),
     "trimesh": ("blinn", lambda n, kd, ks: Target(kd, (2 / (n + 2)) ** 0.25, np.full(3, 0.04), 1.0, 1.0)),
@@ -43,9 +43,9 @@ FORMULAS = {  # page: lobe, [(label, rule)]
 REFERENCE = (96.08, np.full(3, 0.64), np.full(3, 0.5))
 
 
-# Kd, Ks and shininess (times 128 the exponent) of the 24 materials of the OpenGL courses (teapots.c of the OpenGL Programming
-# Guide): emerald, jade, obsidian, pearl, ruby, turquoise; brass, bronze, chrome, copper, gold, silver; plastics and rubbers in
-# black, cyan, green, red, white and yellow.
+# These are Kd, Ks and shininess (the exponent / 128) of the 24 materials of the OpenGL courses (teapots.c of the
+# OpenGL Programming Guide): emerald, jade, obsidian, pearl, ruby, turquoise; brass, bronze, chrome, copper, gold,
+# silver; plastics and rubbers in black, cyan, green, red, white and yellow.
 OPENGL = [
     ((0.07568, 0.61424, 0.07568), (0.633, 0.727811, 0.633), 0.6),
     ((0.54, 0.89, 0.63), (0.316228, 0.316228, 0.316228), 0.1),
@@ -75,12 +75,12 @@ OPENGL = [
 
 
 def opengl_materials():
-    """(n, Kd, Ks)."""
+    """Returns (n, Kd, Ks)."""
     return [(128 * shininess, kd, ks) for kd, ks, shininess in OPENGL]
 
 
 def offers(lobe):
-    """The short form as it can be written: in KHR_materials_specular, with a rim, and in core glTF."""
+    """Returns the short form as it can be written: in KHR_materials_specular, with a rim, and in core glTF."""
     return {"short form, constant reflectance": lambda *m: short_target(*m, lobe),
             "short form, F90 = 1": lambda *m: short_target(*m, lobe, f90=1.0),
             "short form, core glTF": lambda *m: core_target(*m, lobe)}
@@ -99,7 +99,7 @@ def formula_table():
 
 
 def file_table(page, files):
-    """Materials without maps of real files, by the formula of the page's program."""
+    """Returns materials without maps of real files, by the formula of the page's program."""
     lobe, rule = FORMULAS[page]
     lines = ["| file | materials | today | short form | F90 = 1 | core glTF |", "|---|---|---|---|---|---|"]
     for label, materials in files:

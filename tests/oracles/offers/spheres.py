@@ -1,4 +1,5 @@
-"""Pictures of spheres: an exponent's lobe as the source means it, GGX as appendix B of glTF has it, and their difference."""
+"""Renders spheres with the lobe of an exponent as its source defines it, and with GGX as in appendix B of glTF.
+Measures their difference."""
 import collections
 import math
 
@@ -6,8 +7,8 @@ import numpy as np
 
 TEXELS = 40
 
-# Values of one material, or of each texel: exponent, linear colors; lobe is "blinn" or "phong". display: the renderer adds up display
-# values, as MuJoCo does.
+# A Source holds the values of one material, or of each texel: exponent and linear colors. lobe is "blinn" or "phong".
+# display is true if the renderer adds up display values, as MuJoCo does.
 Source = collections.namedtuple("Source", "n kd ks lobe display", defaults=("blinn", False))
 Target = collections.namedtuple("Target", "base roughness f0 f90 metallic", defaults=(1.0, 0.0))
 
@@ -23,7 +24,7 @@ def encoded(value):
 
 
 def light_sets():
-    """Directions and weights; weights make the brightest point of a white diffuse sphere 1."""
+    """Returns directions and weights. The weights make the brightest point of a white diffuse sphere 1."""
     index = np.arange(32)
     z = 1 - (2 * index + 1) / 32
     angle = index * math.pi * (3 - math.sqrt(5))
@@ -38,7 +39,7 @@ def lamp(degrees):
 
 
 class Sphere:
-    """Cosines at the pixels of a sphere that is seen from +z, for one set of lights."""
+    """Holds cosines at the pixels of a sphere that is seen from +z, for one set of lights."""
 
     def __init__(self, lights, side=64):
         directions, weights = lights
@@ -61,7 +62,7 @@ class Sphere:
         self.uv = np.stack([np.arctan2(normal[:, 0], normal[:, 2]) / math.pi + 0.5, np.arccos(normal[:, 1]) / math.pi], -1)
 
     def source(self, s):
-        """Display values of pixels; values of the material may be one, or one for each pixel."""
+        """Returns display values of pixels. The material may have one value for all pixels, or one for each."""
         lobe = self.nh if s.lobe == "blinn" else self.rv
         lobe = np.where(self.lit, lobe ** np.maximum(s.n, 1e-6), 0.0)
         color = np.asarray(s.kd) * self.sum(self.nl) + np.asarray(s.ks) * self.sum(lobe)
@@ -87,17 +88,17 @@ class Sphere:
 
 
 SPHERES = {name: [Sphere(lights)] for name, lights in light_sets().items()}
-# A simulator has lamps, and no light from all around.
+# A simulator has lamps, but no light from all directions.
 LAMPS = {"lamps": [Sphere(lamp(degrees)) for degrees in (10, 30, 50, 70)]}
 
 
 def at(values, index):
-    """One texel of named arrays."""
+    """Returns one texel of named arrays."""
     return type(values)(*(value[index] if isinstance(value, np.ndarray) and value.shape[0] == TEXELS else value for value in values))
 
 
 def squares(source, target, sets=SPHERES):
-    """Sum of squared differences and their count, for each set of lights."""
+    """Returns the sum of squared differences and their count, for each set of lights."""
     sums = np.zeros((len(sets), 2))
     mapped = any(isinstance(v, np.ndarray) and v.shape and v.shape[0] == TEXELS for v in (*source, *target))
     for index in range(TEXELS) if mapped else [0]:
@@ -110,5 +111,5 @@ def squares(source, target, sets=SPHERES):
 
 
 def percent(sums):
-    """RMSE under each set of lights, as the cell of a table."""
+    """Returns the RMSE under each set of lights, as the cell of a table."""
     return " / ".join(f"{100 * math.sqrt(total / count):.1f}" for total, count in np.sum(sums, axis=0))

@@ -1,4 +1,4 @@
-// glTF containers with images for tests, as PlainCodec writes them, and what came of them.
+// This file makes glTF containers with images for tests, as PlainCodec writes them, and reads the results.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,8 @@ inline std::string file_of(const ImagePixels& pixels) {
 }
 inline ImagePixels pixels_of(const std::string& bytes) { return PlainCodec().decode(bytes, "image"); }
 
-// A container with images in its binary chunk, a texture for each, and these materials.
+// Returns a container with the given materials. Its binary chunk has the images, and each image has a
+// texture.
 inline std::string container_of(const std::vector<ImagePixels>& images, const std::string& materials,
                                 const std::string& more = "") {
   std::string binary = "mesh", views = R"({"buffer":0,"byteLength":4})", entries, textures;
@@ -68,7 +69,7 @@ inline std::string textured(const std::string& members) {
 
 inline const std::string kBoth = R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1})";
 
-// A converted container, its JSON, and its images.
+// A Reread holds a converted container, its JSON, and its images.
 struct Reread {
   std::string bytes;
   GltfContainer container;
@@ -81,7 +82,7 @@ struct Reread {
 
   SpanValue root() const { return json->root(); }
   SpanValue material(std::size_t index) const { return root()["materials"].children().at(index); }
-  // The image of a texture info.
+  // Returns the image of a texture info.
   ImagePixels image(SpanValue info) const {
     const SpanValue texture = root()["textures"].children().at(*info["index"].whole());
     const SpanValue view = root()["bufferViews"].children().at(

@@ -1,4 +1,4 @@
-// glTF texts and containers for tests, and what a conversion must keep of them.
+// This file makes glTF texts and containers for tests, and checks what a conversion must not change.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace remap {
 
-// A file of one material with this object of spec-gloss, and more members of the material.
+// Returns a file of one material with this spec-gloss object and more members.
 inline std::string specgloss_text(const std::string& extension, const std::string& more = "") {
   return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],)"
          R"("materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)" +
@@ -34,14 +34,14 @@ inline std::string chunk_bytes(std::uint32_t type, const std::string& content) {
   return four_bytes(static_cast<std::uint32_t>(content.size())) + four_bytes(type) + content;
 }
 
-// A container of this JSON, padded, and chunks as chunk_bytes() makes them.
+// Returns a container of this JSON, padded, and of chunks that chunk_bytes() made.
 inline std::string glb_bytes(std::string json, const std::string& chunks = "", char padding = ' ') {
   json.append((4 - json.size() % 4) % 4, padding);
   const std::string content = chunk_bytes(kJsonChunk, json) + chunks;
   return "glTF" + four_bytes(2) + four_bytes(static_cast<std::uint32_t>(12 + content.size())) + content;
 }
 
-// The bytes of the file after a conversion; the source where nothing was converted.
+// Returns the bytes of the file after a conversion, or the source if nothing was converted.
 inline std::string converted_bytes(const std::string& bytes, const AssetOptions& options = {},
                                    const AssetResources* resources = nullptr) {
   const AssetConversion conversion = convert_gltf(MemorySource(bytes), "file", options, resources);
@@ -62,12 +62,13 @@ inline bool is_of_materials(const std::string& key) {
   return key == "materials" || key == "extensionsUsed" || key == "extensionsRequired" || key == "buffers";
 }
 
-// Lists that new images make longer.
+// Returns true for lists that new images make longer.
 inline bool may_grow(const std::string& key) {
   return key == "images" || key == "textures" || key == "bufferViews";
 }
 
-// Pixels with a header of their own in place of a format: tests of the core need no image library.
+// A PlainCodec stores pixels with its own header instead of an image format, because tests of the core need
+// no image library.
 class PlainCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
@@ -90,17 +91,17 @@ class PlainCodec final : public ImageCodec {
     for (const std::byte byte : pixels.bytes) bytes += static_cast<char>(byte);
     return bytes;
   }
-  // What begins as JPEG files do, and cannot be read again.
+  // Returns bytes that begin like a JPEG file. They cannot be read again.
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
     return "\xff\xd8" + std::to_string(quality) + encode_png(pixels, kUsualPngLevel);
   }
 };
 
-// Files in memory.
+// A PlainResources holds files in memory.
 class PlainResources final : public AssetResources {
  public:
   std::map<std::string, std::string> files;
-  std::string prefix = {};  // of new images
+  std::string prefix = {};  // prefix of new images
 
   std::unique_ptr<ByteSource> open(const std::string& path) const override {
     const auto found = files.find(path);
@@ -109,7 +110,7 @@ class PlainResources final : public AssetResources {
   }
   const ImageCodec& codec() const override { return codec_; }
   std::string image_prefix() const override { return prefix; }
-  // The nearest texel.
+  // Returns the closest texels, without interpolation.
   ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override {
     ImagePixels result{width, height, pixels.channels, pixels.type, {}};
     const auto size = static_cast<std::ptrdiff_t>(pixels.texel_bytes());
@@ -125,7 +126,7 @@ class PlainResources final : public AssetResources {
   PlainCodec codec_;
 };
 
-// Whether a conversion may take the extension from a material.
+// Returns true if a conversion may remove the extension from a material.
 inline bool may_lose(const std::string& extension, const AssetOptions& options) {
   const bool is_dielectric = extension == kSpecularExtension || extension == kIorExtension;
   if (options.target == AssetTarget::kSpecGloss) return is_dielectric;
@@ -143,8 +144,8 @@ inline void require_material_kept(SpanValue before, SpanValue after, const Asset
       REQUIRE(after["extensions"].find(key).raw() == before["extensions"].find(key).raw());
 }
 
-// Every byte is as it was but those of converted materials, of the lists of extensions and, where the file is
-// compacted, of spare images. Returns the number of materials that differ.
+// Checks that no byte has changed except in converted materials, in the lists of extensions and, if the file
+// is compacted, in spare images. Returns the number of materials that differ.
 inline std::size_t require_others_kept(const std::string& before, const std::string& after,
                                        const AssetOptions& options = {}) {
   const SpannedJson old_json(before, "before"), new_json(after, "after");

@@ -1,4 +1,4 @@
-// Conversions of MTL texts for tests.
+// This file converts MTL texts for tests.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ inline AssetConversion converted_mtl(const std::string& text, const AssetResourc
   return convert_mtl(MemorySource(text), "file.mtl", options, resources);
 }
 
-// The lines of a text, without their endings.
+// Returns the lines of a text, without their endings.
 inline std::vector<std::string> lines_in(std::string_view text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
@@ -26,7 +26,8 @@ inline std::vector<std::string> lines_in(std::string_view text) {
   return lines;
 }
 
-// The value of a line of a converted text: `0.5` of `Pr 0.5`; empty where there is none.
+// Returns the value in a line of a converted text, such as `0.5` in `Pr 0.5`, or an empty text if there is
+// none.
 inline std::string value_of(const AssetConversion& conversion, const std::string& word) {
   std::string value;
   for (const std::string& line : lines_in(conversion.text))
@@ -34,7 +35,7 @@ inline std::string value_of(const AssetConversion& conversion, const std::string
   return value;
 }
 
-// A map of `width` texels of one row; a texel is one number or three, from 0 to 255.
+// Returns a map with one row of `width` texels. A texel is one number or three, from 0 to 255.
 inline std::string map_bytes(const std::vector<std::vector<int>>& texels, std::size_t height = 1) {
   ImagePixels pixels{texels.size(), height, texels.front().size(), PixelType::kUint8, {}};
   for (std::size_t y = 0; y < height; ++y)

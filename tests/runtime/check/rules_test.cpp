@@ -1,4 +1,5 @@
-// Rules of `texremap check` on made texels. tests/oracles/check_judge.py judges them on files of others.
+// This file tests the rules of `texremap check` on artificial texels. tests/oracles/check_judge.py tests them
+// on files from bug reports.
 #include "check/rules.hpp"
 
 #include <cmath>
@@ -17,7 +18,7 @@ constexpr int kSide = 64;
 
 using Value = double (*)(double x, double y);
 
-// A map of `channels` functions of x and y from 0 to 1, in 8 bits.
+// Returns a map of `channels`, functions of x and y from 0 to 1, in 8 bits.
 MaterialMap map_of(const std::string& name, const std::vector<Value>& channels) {
   TexelSample sample;
   sample.columns = sample.rows = sample.layout.width = sample.layout.height = kSide;
@@ -62,8 +63,8 @@ using Names = std::vector<std::string>;
 
 double rough(double x, double y) { return 0.4 + 0.3 * std::sin(9.0 * x) * std::cos(7.0 * y); }
 
-// Normals of the height h = 0.05 sin(a x + b y + c x y), by its derivatives; green points up, against the
-// rows.
+// These normals belong to the height h = 0.05 sin(a x + b y + c x y), by its derivatives. Green points up,
+// while rows go down.
 constexpr double kA = 14.0, kB = 9.0, kC = 11.0, kHeight = 0.05;
 double slope_x(double x, double y) {
   return kHeight * (kA + kC * y) * std::cos(kA * x + kB * y + kC * x * y);
@@ -101,7 +102,7 @@ TEST_CASE("rules: the curl of slopes tells which way green points") {
   CHECK(normals("a_NormalDX.png", green_down) == Names{});
   CHECK(normals("a_NormalGL.png", green_down) == Names{"normal-orientation"});
   CHECK(normals("a_NormalDX.png", green_up) == Names{"normal-orientation"});
-  CHECK(normals("a_Normal.png", green_down) == Names{});  // nothing says which way
+  CHECK(normals("a_Normal.png", green_down) == Names{});  // the name does not state a direction
   CHECK(found(set_of({{map_of("a_Normal.png", {red, green_up, blue}), {use_of(Role::kNormal)}}}),
               &gltf_consumers()[2]) == Names{"normal-orientation"});
 }
@@ -125,13 +126,14 @@ TEST_CASE("rules: a specular color in another color space, and none at all") {
     uses.push_back(use_of(Role::kSpecular));
     return found(set_of({{map_of("a_Specular.png", {value, value, value}), uses}}));
   };
-  const Value stored = [](double, double y) { return y < 0.9 ? 0.2195 : 0.9; };  // F0 0.04 in sRGB
+  const Value stored = [](double, double y) { return y < 0.9 ? 0.2195 : 0.9; };  // an F0 of 0.04 in sRGB
   const Value linear = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
   CHECK(specular(stored) == Names{});
   CHECK(specular(linear) == Names{"specular-color"});
   CHECK(specular([](double, double) { return 0.0; }) == Names{"specular-color"});
   CHECK(specular([](double, double) { return 1.0; }) == Names{"specular-color"});
-  CHECK(specular(linear, {use_of(Role::kMetallic, Channels::kRed)}) == Names{});  // a level, not F0
+  // the map is a level, not F0
+  CHECK(specular(linear, {use_of(Role::kMetallic, Channels::kRed)}) == Names{});
 }
 
 TEST_CASE("rules: metallic in another channel than the name says") {
@@ -168,7 +170,7 @@ TEST_CASE("check: what assets state, and files that are no assets") {
                      built_in_naming())
             .problems.front()
             .find("is cut off") != std::string::npos);
-  // A factor that no conversion reads is a problem; the other materials are checked.
+  // A factor that no conversion can read is a problem, but the other materials are still checked.
   const FoundMaterials some = materials_of(
       write("f.gltf",
             R"({"materials": [{"name": "bad", "pbrMetallicRoughness": {"metallicFactor": "x"}}, {}]})"),

@@ -1,4 +1,4 @@
-// The layout of --help: groups, rare options, wrapped lines.
+// This file tests the layout of --help: groups, rare options, wrapped lines.
 #include "command_line/help_text.hpp"
 
 #include <string>
@@ -13,7 +13,7 @@ using namespace remap;
 
 namespace {
 
-// What `read` makes of `tool bake`, which has options of all kinds.
+// Returns what `read` makes of `tool bake`, a command with options of all kinds.
 template <typename Read>
 auto of_bake(const Read& read) {
   Command app("A tool.", "tool");
@@ -39,7 +39,7 @@ auto of_bake(const Read& read) {
   return read(bake->app());
 }
 
-// As --help or --help-all shows it.
+// Returns the help as --help or --help-all shows it.
 std::string help_of_bake(CLI::AppFormatMode mode) {
   return of_bake([&](const CLI::App& app) { return app.help("tool", mode); });
 }

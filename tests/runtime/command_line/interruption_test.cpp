@@ -1,4 +1,4 @@
-// Signals that ask a program to stop. Each case runs in a process of its own.
+// This file tests signals that ask a program to stop. Each case runs in a separate process.
 #include "command_line/interruption.hpp"
 
 #include <csignal>
@@ -12,11 +12,11 @@ using namespace remap;
 
 namespace {
 
-// How a child ends that runs `work`: its exit code, or minus the signal.
+// Runs `work` in a child process. Returns its exit code, or minus the signal that ended it.
 int end_of(const std::function<int()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
-    // Catch2 has handlers of its own here, and the test may run under nohup.
+    // Catch2 installs handlers here, and the test may run under nohup.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
     ::_exit(work());
   }
@@ -38,7 +38,7 @@ TEST_CASE("interruption: the first signal sets the flag, the second ends the pro
     CHECK(end_of(once) == 0);
     CHECK(end_of([&] {
             once();
-            watch_interruptions();  // as a command does that starts another part of its work
+            watch_interruptions();  // a command may call it again when it starts another part of its work
             std::raise(signal);
             return 0;
           }) == -signal);

@@ -1,4 +1,4 @@
-// The frame of both programs: exit codes, and answers to mistyped words.
+// This file tests the frame of all programs: exit codes, and answers to mistyped words.
 #include "command_line/run_app.hpp"
 
 #include <iostream>

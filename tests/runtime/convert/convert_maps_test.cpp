@@ -1,4 +1,4 @@
-// The conversion of buffers in memory, compared with the converter applied to each texel.
+// This file compares the conversion of buffers in memory with the converter applied to each texel.
 #include "remap/convert_maps.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kWidth = 61, kHeight = 37;
 
-// Interleaved texels of roughness, red, green, blue and foreign values, with padded rows.
+// A Buffer holds interleaved texels of roughness, red, green, blue and foreign values, with padded rows.
 struct Buffer {
   explicit Buffer(std::size_t values_a_texel = 6) : texel(values_a_texel) {}
 
@@ -87,15 +87,16 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
       for (std::size_t c = 4; c < size; ++c)
         REQUIRE(result.at(x, y, c) == (in_place ? copy.at(x, y, c) : -7.0f));
     }
-  CHECK(result.values.back() == -7.0f);  // padding
+  CHECK(result.values.back() == -7.0f);  // the padding has not changed
 }
 
-// Packed planes of floats are read and written where they are, unless that would change what is still read.
+// Packed planes of floats are read and written in place, unless this would change values that are still
+// needed.
 TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned") {
   enum class Targets { kApart, kInPlace, kNextPlane, kReversed };
   const Targets targets =
       GENERATE(Targets::kApart, Targets::kInPlace, Targets::kNextPlane, Targets::kReversed);
-  const std::size_t misplaced = GENERATE(std::size_t{0}, std::size_t{1});  // bytes
+  const std::size_t misplaced = GENERATE(std::size_t{0}, std::size_t{1});  // in bytes
   const BadTexels bad = GENERATE(BadTexels::kKeep, BadTexels::kClamp);
   const auto converter = make_lowered_converter(example_fit());
   constexpr std::size_t kPlane = kWidth * kHeight * sizeof(float);
@@ -128,11 +129,12 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   }
   const MapStatistics statistics = convert_maps(*converter, maps);
 
-  // The same with other memory, which holds the texels interleaved: the color alone, all four values, or
-  // others with them.
+  // The same texels are now interleaved in memory. A texel is only the color, all four values, or all four
+  // values and more.
   const std::size_t size = GENERATE(std::size_t{3}, std::size_t{4}, std::size_t{5});
   const std::size_t color =
-      size == 3 ? kWidth * kHeight : 1;  // behind a plane of roughness, or behind a texel's own
+      // the color comes with a plane of roughness, or each texel has its own roughness
+      size == 3 ? kWidth * kHeight : 1;
   const auto place = [&](std::size_t i, std::size_t c) {
     return c == 0 ? (size == 3 ? i : size * i) : color + size * i + c - 1;
   };
@@ -166,7 +168,7 @@ TEST_CASE("convert_maps: the mask marks each texel that the converter counts as 
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   for (std::size_t x = 3; x < kWidth; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
-  for (std::size_t x = 0; x < kWidth; ++x) from.at(x, 8, 2) = 100.0f;  // a whole row
+  for (std::size_t x = 0; x < kWidth; ++x) from.at(x, 8, 2) = 100.0f;  // damages a whole row
   MapConversion maps = conversion(from, to);
   std::vector<float> mask(kWidth * kHeight, 0.5f);
   maps.mask = float_channel(mask.data(), kWidth);
@@ -210,7 +212,7 @@ TEST_CASE("convert_maps: statistics cover all values, for any number of threads"
     CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
     CHECK(statistics.targets.at(Parameter::kRoughness).max == one.targets.at(Parameter::kRoughness).max);
   }
-  // The noise is uniform, so every bin holds about its share.
+  // The noise is uniform, so all bins have about the same count.
   for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
     CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
@@ -263,7 +265,7 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   };
   CHECK(mean(whole) == Approx(exact).margin(0.01));
-  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the line before proves nothing
+  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the previous check would prove nothing
 }
 
 TEST_CASE("convert_maps: channels that do not match the converter are refused") {

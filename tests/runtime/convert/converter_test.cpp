@@ -1,5 +1,5 @@
-// Converters behind their interface: the compiled ones against their fits' domain, the interpreted one
-// against the interpreter.
+// This file tests converters by their interface: compiled ones in the domain of their fits, the interpreted
+// one against the interpreter.
 #include "remap/converter.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// Fits that were not compiled: their forms against the interpreter, on every instruction set.
+// This file tests fits that were not compiled: their forms against the interpreter, on every instruction set.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,8 @@ using namespace remap;
 
 namespace {
 
-// Alpha and specular both of alpha and specular; `gamma` decides how many terms it takes.
+// Returns a mapping in which alpha and specular both depend on both inputs. `gamma` decides how many terms it
+// needs.
 Svr curved(double gamma) {
   const KernelExpansion alpha{{{0.0, 1.0, 0.0}, {0.0, 2.0, 0.0}}, {0.0, 1.0, 0.0},  gamma, 0.4,
                               {0.1, 0.2, 0.6, 0.9, 0.9, 0.1},     {-0.2, 0.1, 0.15}};
@@ -24,7 +25,8 @@ Svr curved(double gamma) {
   return {alpha, specular};
 }
 
-// Every convention on either side, few terms and many; random forms with limits and hinges.
+// Returns fits with every convention on either side, with few and many terms, and random forms with limits
+// and hinges.
 const std::vector<Fit>& fits() {
   static const std::vector<Fit> all = [] {
     std::vector<Fit> made;
@@ -32,7 +34,7 @@ const std::vector<Fit>& fits() {
     many.domain.alpha.min = many.domain.specular.min = 0.2;
     many.mapping = curved(2.0);
     made.push_back(lowered_fit(many));
-    many.mapping = made.back().converter->form;  // lowered once: it takes seconds
+    many.mapping = made.back().converter->form;  // lowered only once, because this takes seconds
     for (const std::string& name : convention_names()) {
       Fit fit = example_fit();
       fit.source.roughness = encoding_from_name(name).value();
@@ -48,7 +50,8 @@ const std::vector<Fit>& fits() {
   return all;
 }
 
-// Four units in the last place, twice: of the parameters as floats, and of the scale of a texel.
+// This allows four units in the last place twice: once for the parameters as floats, once for the scale of a
+// texel.
 constexpr double kRounding = 1e-6;
 
 void check_texel(const Fit& fit, const TestTexels& in, const TestTexels& out, std::size_t i) {
@@ -85,7 +88,7 @@ TEST_CASE("lowered converter: stays within its proven bound of the interpreter, 
     INFO(kind_name(fit.mapping) << " of " << encoding_name(fit.source.roughness));
     const auto converter = make_lowered_converter(fit);
     TestTexels in = odd_and_random_texels(converter->info(), 2000);
-    // Beyond 1e30 a channel is left as it is, by converters in floats alone.
+    // Converters that use only floats do not change channels beyond 1e30.
     for (auto& row : in.specular)
       for (float& value : row)
         if (value > 1e30f && std::isfinite(value)) value = 1e3f;

@@ -1,4 +1,4 @@
-// Converters that only say what they are, and graphs of them.
+// This file makes converters that only have descriptions, and graphs of them.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,11 @@
 
 namespace remap {
 
-// Converters of width 0 to 1 and specular from 0, without fit errors: what is expected of each is its image
-// error. They keep width and specular.
+// A NamedConverters has converters for width 0 to 1 and specular from 0, without fit errors. Their expected
+// error is the image error. They do not change width and specular.
 class NamedConverters {
  public:
-  // What a converter says of itself, to be added as it is or with changes.
+  // Returns the description of a converter, which can be changed before it is added.
   static ConverterInfo info(const std::string& source, const std::string& target,
                             std::optional<double> image_error) {
     ConverterInfo made;

@@ -1,4 +1,4 @@
-// Pixel types, compared with Imath's half and with integer arithmetic.
+// This file compares pixel types with Imath's half and with integer arithmetic.
 #include <Imath/half.h>
 #include <bit>
 #include <cmath>
@@ -64,7 +64,7 @@ TEST_CASE("pixel type: every half converts to float as in Imath, and back") {
 TEST_CASE("pixel type: floats are rounded to half as Imath rounds them", "[slow]") {
   std::mt19937 random(1);
   for (int i = 0; i < 2'000'000; ++i) check_half(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
-  // Exactly between two halves, and one unit to either side: ties go to even.
+  // Tests the value exactly between two half floats, and one unit to either side. Ties round to even.
   for (std::uint32_t bits = 0; bits < 0x7c00; ++bits) {
     const float low = half_to_float(static_cast<std::uint16_t>(bits));
     const float high = bits + 1 == 0x7c00 ? 65536.0f : half_to_float(static_cast<std::uint16_t>(bits + 1));

@@ -1,4 +1,4 @@
-// Rows of texels for tests of converters: random texels, edges, and invalid values.
+// This file makes rows of texels for tests of converters: random texels, edges, and invalid values.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ struct TestTexels {
   std::array<std::vector<float>, 3> specular;
 };
 
-// Every pair of special values in roughness and channel, then random texels inside and outside the domain.
+// Returns every pair of special values in roughness and channel, then random texels inside and outside the
+// domain.
 inline TestTexels odd_and_random_texels(const ConverterInfo& info, std::size_t random_count) {
   const auto odd_values = [](const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
@@ -61,13 +62,13 @@ inline TestTexels odd_and_random_texels(const ConverterInfo& info, std::size_t r
   return rows;
 }
 
-// Converts `count` texels from the texel `first` on, with the first `channels` channels, in place in a copy
-// or into other rows.
+// A Converted is the result for `count` texels, beginning with the texel `first`, and for the first
+// `channels` channels. The texels were converted in place in a copy, or into other rows.
 struct Converted {
   TestTexels rows;
   std::size_t out_of_domain = 0;
 };
-// `converter`: a Converter, or what has its convert() of width and specular.
+// `converter` is a Converter, or has the same convert() for width and specular.
 template <class Convert>
 Converted converted(const Convert& converter, const TestTexels& given, std::size_t first, std::size_t count,
                     std::size_t channels, bool in_place) {
@@ -89,7 +90,7 @@ Converted converted(const Convert& converter, const TestTexels& given, std::size
   return result;
 }
 
-// Whether all bits are equal; all NaN count as equal.
+// Returns true if all bits are equal, or both values are NaN.
 inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -98,8 +99,8 @@ inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) 
   return true;
 }
 
-// Whether `converter` gives the bits of `expected` for all of `texels`, for rows of many lengths, one and
-// three channels, in place and not.
+// Returns true if `converter` gives the bits of `expected` for all `texels`: for rows of many lengths, one
+// and three channels, in place and not.
 template <class Expected>
 bool same_bits(const Converter& converter, const Expected& expected, const TestTexels& texels) {
   const std::size_t all = texels.roughness.size();

@@ -1,4 +1,4 @@
-// The curve of sRGB against its formula in long doubles.
+// This file tests the curve of sRGB against its formula in long doubles.
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -39,14 +39,14 @@ int exact_level(float linear) {
   return static_cast<int>(std::floor(exact_srgb(static_cast<long double>(linear)) * 255.0L + 0.5L));
 }
 
-// Whether `value` is within 0.51 units in the last place of `exact`.
+// Returns true if `value` is within 0.51 units in the last place of `exact`.
 bool is_near(float value, long double exact) {
   const float next = std::nextafter(value, kInfinity);
   const long double unit = static_cast<long double>(next) - static_cast<long double>(value);
   return std::fabs(static_cast<long double>(value) - exact) <= 0.51L * unit;
 }
 
-// Floats of every exponent up to that of 2^40.
+// Calls `use` for floats of every exponent up to that of 2^40.
 template <typename Use>
 void for_sample(Use use) {
   for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(0x1p40f); bits += 10007)
@@ -59,7 +59,7 @@ TEST_CASE("transfer: sRGB is invertible and continuous") {
   for (float value = -0.5f; value < 2.0f; value += 0.00711f) {
     CHECK(from_linear(to_linear(value)) == Approx(value).margin(1e-6));
   }
-  // Stokes et al. 1996, and the table of IEC 61966-2-1: 188 of 255 is about half.
+  // By Stokes et al. 1996 and the table of IEC 61966-2-1, 188 of 255 is about half.
   CHECK(to_linear(188.0f / 255.0f) == Approx(0.5029).margin(1e-4));
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("transfer: what 8 bits cannot hold is clipped and counted") {
 }
 
 TEST_CASE("transfer: results have the same bits everywhere") {
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  std::uint64_t hash = 0xcbf29ce484222325;  // start of FNV-1a
   for_sample([&hash](float value) {
     for (const float result : {to_linear(value), from_linear(value)})
       hash = (hash ^ std::bit_cast<std::uint32_t>(result)) * 0x100000001b3;

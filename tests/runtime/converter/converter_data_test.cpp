@@ -1,4 +1,4 @@
-// The data of lowered fits that texremap reads, as the emitter writes it.
+// This file tests the data of lowered fits, which the emitter writes and texremap reads.
 #include "converter/converter_data.hpp"
 
 #include <catch2/catch.hpp>

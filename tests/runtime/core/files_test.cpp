@@ -1,4 +1,4 @@
-// Files that appear whole, and those that cannot be read.
+// This file tests files that appear complete, and files that cannot be read.
 #include "core/files.hpp"
 
 #include <array>
@@ -35,7 +35,8 @@ TEST_CASE("read file: a folder and a missing file are told apart") {
 
 namespace {
 
-// The message of the error that `work` throws within two seconds; a reader that hangs ends the test program.
+// Returns the message of the error that `work` throws within two seconds. If `work` hangs, the test program
+// ends.
 template <typename Work>
 std::string refusal(Work work) {
   ::alarm(2);
@@ -79,7 +80,7 @@ TEST_CASE("read file: what is larger than a limit is refused, whatever its size 
   write_file(path, "12345");
   CHECK(read_file(path, 5) == "12345");
   CHECK(refusal([&] { read_file(path, 4); }) ==
-        path.string() + ": has more than 4 bytes, the most that is read of such a file");
+        path.string() + ": has more than 4 bytes, which is the limit for such a file");
   CHECK(refusal([] {
           read_file("/proc/self/maps", 10);
         }).starts_with("/proc/self/maps: has more than 10 bytes"));
@@ -107,11 +108,11 @@ TEST_CASE("unfinished files: those of processes that were killed are removed, al
   REQUIRE(is_left());
   CHECK(is_stale_owner(tag + std::to_string(dead)));
   const std::vector<std::string> others = {
-      ".a.unfinished-" + owner_tag() + "-abc.png",                    // of a process that lives
-      ".a.unfinished-00000000-" + std::to_string(dead) + "-abc.png",  // of another machine
-      ".a.unfinished-" + std::to_string(dead) + "-abc.png",           // without a machine
-      ".a.unfinished-" + tag + std::to_string(dead) + "x-abc.png",    // not quite the name
-      ".a.unfinished-" + tag + "-1-abc.png",                          // no process
+      ".a.unfinished-" + owner_tag() + "-abc.png",                    // the process is alive
+      ".a.unfinished-00000000-" + std::to_string(dead) + "-abc.png",  // another machine
+      ".a.unfinished-" + std::to_string(dead) + "-abc.png",           // no machine
+      ".a.unfinished-" + tag + std::to_string(dead) + "x-abc.png",    // not exactly the pattern
+      ".a.unfinished-" + tag + "-1-abc.png",                          // not a process
       "a.unfinished-" + tag + std::to_string(dead) + "-abc.png"};     // not hidden
   for (const std::string& name : others) std::ofstream(folder.path() / name) << "x";
   write_file(folder.path() / "new.txt", "x");

@@ -1,4 +1,4 @@
-// The scanner against the JSON library, and edits that move no other byte.
+// This file tests the scanner against the JSON library, and edits that move no other byte.
 #include "core/json_spans.hpp"
 
 #include <optional>
@@ -24,7 +24,7 @@ bool is_scanned(const std::string& text) {
   }
 }
 
-// None where the library refuses a number that no double holds.
+// Returns nothing if the library refuses a number because no double can hold it.
 std::optional<bool> is_parsed(const std::string& text) {
   try {
     return !nlohmann::json::parse(text).is_discarded();

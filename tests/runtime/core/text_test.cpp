@@ -1,4 +1,4 @@
-// Numbers as text, and names that are near.
+// This file tests numbers as text, and names that are similar.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -115,7 +115,7 @@ TEST_CASE("parse JSON: a message does not repeat a text without end") {
     CHECK(std::string(error.what()).size() < 400);
   }
   CHECK_THROWS_WITH(parse_json(std::string(kLongestJson + 1, ' '), "x.json"),
-                    "x.json: has 64 MB of JSON; at most 64 MB are read");
+                    "x.json: has 64 MB of JSON; at most 64 MB can be read");
 }
 
 TEST_CASE("JSON: the bytes of texts that are no UTF-8 stand beside them") {

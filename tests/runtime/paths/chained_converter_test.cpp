@@ -1,4 +1,4 @@
-// Chains of converters against their steps one after another, and against the interpreter.
+// This file tests chains of converters against their steps one after another, and against the interpreter.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using Steps = std::vector<const Converter*>;
 
-// The steps over whole rows; a texel that counts alone at any step counts.
+// An InTurn runs each step over whole rows. A texel is out of domain if any step is.
 class InTurn {
  public:
   explicit InTurn(Steps steps) : steps_(std::move(steps)) {}
@@ -54,7 +54,7 @@ class InTurn {
   Steps steps_;
 };
 
-// alpha2 = slope * alpha, specular2 = factor * specular.
+// Returns a fit with alpha2 = slope * alpha and specular2 = factor * specular.
 Fit proportional_fit(const std::string& source, const std::string& target, double slope, double factor) {
   Fit fit = example_fit();
   fit.id = converter_id(source, target);
@@ -64,7 +64,8 @@ Fit proportional_fit(const std::string& source, const std::string& target, doubl
   return fit;
 }
 
-// Three fits in a row, of three conventions, each with a narrower domain than the one before gives.
+// Returns three fits in sequence with three conventions. Each domain is narrower than the results of the
+// previous fit.
 std::vector<Fit> three_fits() {
   Fit first = example_fit(), second = example_fit(), third = example_fit();
   second.id = "example_b_to_example_c";
@@ -163,7 +164,7 @@ TEST_CASE("chained converter: its domain is the part of the first that every ste
   Fit first = proportional_fit("r/a", "r/b", 0.8, 1.25), second = proportional_fit("r/b", "r/c", 1.0, 1.0);
   second.domain = {{0.1, 0.6}, {0.0, 0.25}};
   const ConverterInfo info = make_chained_converter(SteppedFits({first, second}).steps)->info();
-  // Polynomials are within 1e-5 and ends rounded to 4 digits.
+  // Polynomials are exact to 1e-5, and the ends are rounded to 4 digits.
   CHECK(info.roughness.min == Approx(0.125).margin(2e-4));
   CHECK(info.roughness.max == Approx(0.75).margin(2e-4));
   CHECK(info.specular.min == 0.0);
@@ -173,7 +174,7 @@ TEST_CASE("chained converter: its domain is the part of the first that every ste
   const ConverterInfo own = make_lowered_converter(first)->info();
   CHECK(whole.roughness == own.roughness);
   CHECK(whole.specular == own.specular);
-  second.domain = {{0.9, 1.0}, {0.0, 1.0}};  // which no image reaches
+  second.domain = {{0.9, 1.0}, {0.0, 1.0}};  // no result of the first fit reaches this domain
   CHECK(make_chained_converter(SteppedFits({first, second}).steps)->info().roughness == own.roughness);
 }
 

@@ -1,4 +1,5 @@
-// Which model looks closest: made-up converters with known errors, pictures and domains.
+// This file tests which model looks most similar, with invented converters of known errors, pictures and
+// domains.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -25,11 +26,11 @@ class RatedConverters : public NamedConverters {
   ConverterPath path(const std::string& source, const std::string& target) const {
     return graph().find_paths({source, target, {}}).front();
   }
-  // The model of `renderer` that is closest to `source`.
+  // Returns the model of `renderer` that is closest to `source`.
   std::string closest(const std::string& source, const std::string& renderer) const {
     return target_model(closest_path(graph().paths_to_renderer({source, renderer, {}})));
   }
-  // The model that looks closer than `target`; `none` if there is none.
+  // Returns the model that looks more similar than `target`, or `none`.
   std::string closer(const std::string& source, const std::string& target) const {
     const ConverterGraph whole = graph();
     std::vector<ConverterPath> others;
@@ -85,7 +86,7 @@ TEST_CASE("closeness: a renderer in the place of a model is refused with its mod
                     "source model: r is a renderer (choose one of its models: r/a, r/c)");
   CHECK_THROWS_WITH(graph.find_paths({"r/a", "s", {}}),
                     "target model: s is a renderer (choose one of its models: s/b)");
-  // A source that no converter starts from is not among the models to choose from.
+  // If no converter starts from a source, the message does not offer it.
   CHECK_THROWS_WITH(graph.find_paths({"s", "r/a", {}}), Catch::StartsWith("unknown source model 's'"));
 }
 
@@ -116,7 +117,7 @@ TEST_CASE("closeness: a model that covers few materials is not the closest, nor 
   converters.add("a/source", "b/most", 0.05, {}, 0.5);
   CHECK(converters.closest("a/source", "b") == "b/most");
   CHECK(converters.closer("a/source", "b/metal") == "b/most");
-  // For a source that is a dielectric itself, nothing is narrow.
+  // The source is a dielectric itself, so the range of a dielectric is not too narrow for it.
   converters.add("d/source", "b/dielectric", 0.01, {}, 0.08);
   converters.add("d/source", "b/metal", 0.2, {}, 0.08);
   CHECK(converters.closest("d/source", "b") == "b/dielectric");
@@ -187,7 +188,7 @@ TEST_CASE("closeness: differences of pictures are those that were measured, or a
   CHECK(measured->copied == 12.0);
   CHECK_FALSE(measured->is_estimate);
   const auto estimated = picture_difference(converters.path("a/a", "a/c"));
-  CHECK(estimated->converted == Approx(5.0));  // 3 and 4 in quadrature
+  CHECK(estimated->converted == Approx(5.0));  // the square root of 3^2 + 4^2
   CHECK_FALSE(estimated->copied.has_value());
   CHECK(estimated->is_estimate);
   CHECK(picture_difference(converters.path("a/b", "a/c"))->is_estimate);

@@ -1,4 +1,5 @@
-// Paths through graphs of converters that only say what they are: against every path there is, and refusals.
+// This file tests paths through graphs of converters that only have descriptions: against every possible
+// path, and refusals.
 #include "remap/path.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ std::string refusal(const PathConverters& converters, const PathRequest& request
   return "none";
 }
 
-// Every path of `request`, by walking on from its beginning wherever that is allowed.
+// Collects every path of `request` by walking on from its start in every allowed direction.
 void walk_on(const std::vector<const Converter*>& converters, const PathRequest& request,
              const ConverterPath& beginning, std::vector<ConverterPath>& found) {
   const Names visited = beginning.steps.empty() ? Names{request.source} : path_models(beginning);
@@ -265,7 +266,7 @@ TEST_CASE("path: without detours no path goes round a converter, but through wha
   REQUIRE(paths.size() == 1);
   CHECK(ids(paths[0]) == Names{"r_a_to_r_c"});
   CHECK(paths[0].expected_error == 0.5);
-  // By b and c would be 0.625; both ways left are without a shortcut.
+  // The path by b and c would cost 0.625. Neither of the two remaining paths has a shortcut.
   const auto far = graph.find_paths({"r/a", "r/d", {}}, 5);
   REQUIRE(far.size() == 2);
   CHECK(ids(far[0]) == Names{"r_a_to_r_c", "r_c_to_r_d"});

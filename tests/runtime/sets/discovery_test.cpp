@@ -1,4 +1,4 @@
-// Discovery of sets in typical trees, and in trees with errors.
+// This file tests the discovery of sets in typical trees, and in trees with errors.
 #include <chrono>
 #include <iostream>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-// Sets with the names from the documentation of the tools that write them.
+// This file tests sets with the names from the documentation of the tools that write them.
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace remap;
 
 namespace {
 
-// The habit and meaning of a name without extension: `glTF: G=roughness B=metallic`.
+// Returns the convention and meaning of a name without extension: `glTF: G=roughness B=metallic`.
 std::string reading_text(const std::string& name) {
   const std::vector<NameReading> readings = built_in_naming().read(name);
   if (readings.empty()) return "none";
@@ -93,7 +93,7 @@ TEST_CASE("Poly Haven: rough_ao packs roughness and occlusion", "[reports]") {
   CHECK(set.maps.size() == 3);
   CHECK(reading_text("old_bench_rough_ao_1k") == "Poly Haven: R=roughness G=occlusion");
   CHECK(reading_text("rusty_metal_rough_ao_2k") == "renderers: R=metallic G=roughness B=occlusion");
-  // The name of a set that ends with a word is known by its other maps.
+  // If the name of a set ends with such a word, the other maps show where the name ends.
   const SetSession metal{"rusty_metal_diff_2k.jpg", "rusty_metal_rough_ao_2k.jpg",
                          "rusty_metal_nor_gl_2k.jpg"};
   CHECK(only_set(metal.find(), "rusty_metal").maps.size() == 3);
@@ -210,13 +210,13 @@ TEST_CASE("read name: words inside other words and names of sets do not count") 
   for (const std::string name : {"spectrum", "glossary", "through", "a_spectrum", "arms", "armchair_",
                                  "normalized_2k", "trough", "4k", "", "_", "1024"})
     CHECK(reading_text(name) == "none");
-  // A word in front counts only beside another map of that stem.
+  // A word at the start only has a meaning if another map has the same stem.
   for (const std::string name : {"color_chart", "rough_sketch"})
     CHECK(built_in_naming().read(name).front().doubtful);
   CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");
   CHECK(stem("rough_wood_diff_2k") == "rough_wood");
   CHECK(stem("glossy_tiles_Roughness") == "glossy_tiles");
-  // A capital begins a word only for habits with `camel_case`.
+  // A capital begins a word only for conventions with `camel_case`.
   CHECK(reading_text("heroArm") == "none");
   CHECK(reading_text("heroSpecRough") == "Mari: roughness");
   CHECK(reading_text("rusty_metal_rough_4k") == "Poly Haven: roughness");

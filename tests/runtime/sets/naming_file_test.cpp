@@ -1,4 +1,4 @@
-// Files that extend the habits, and the errors in such files.
+// This file tests files that extend the naming conventions, and the errors in such files.
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
@@ -19,7 +19,7 @@ std::string complaint(const std::string& text) {
   return "none";
 }
 
-// A file with one habit that has one rule.
+// Returns a file with one convention that has one rule.
 std::string with_rule(const std::string& rule) {
   return R"({"habits": [{"name": "x", "rules": [)" + rule + "]}]}";
 }

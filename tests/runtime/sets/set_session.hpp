@@ -1,4 +1,4 @@
-// A tree of empty files, and the sets found in it.
+// This file makes a tree of empty files, and finds the sets in it.
 #pragma once
 
 #include <filesystem>
@@ -31,21 +31,21 @@ class SetSession {
   TemporaryFolder folder_;
 };
 
-// The set at `path` (folder and name). Throws if it was not found.
+// Returns the set at `path` (folder and name). Throws if it was not found.
 inline const FoundSet& set_at(const Discovery& discovery, const std::string& path) {
   for (const FoundSet& set : discovery.sets)
     if ((set.folder / set.name).string() == path) return set;
   throw std::runtime_error("no set " + path);
 }
 
-// The only set of a discovery. Throws if there is another number of sets, or if it has another name.
+// Returns the only set of a discovery. Throws if there is another number of sets, or if it has another name.
 inline const FoundSet& only_set(const Discovery& discovery, const std::string& path) {
   if (discovery.sets.size() != 1)
     throw std::runtime_error(std::to_string(discovery.sets.size()) + " sets, expected " + path + " alone");
   return set_at(discovery, path);
 }
 
-// A use as text: `roughness in G of a_orm.png`, or `-` for none.
+// Returns a use as text: `roughness in G of a_orm.png`, or `-` for none.
 inline std::string use_text(const FoundSet& set, const std::optional<MapUse>& use) {
   if (!use) return "-";
   std::string text(role_name(use->role));

@@ -1,4 +1,4 @@
-// Patterns of tiles and frames, and tiles that are recognised without a pattern.
+// This file tests patterns of tiles and frames, and tiles that are recognised without a pattern.
 #include "sets/tiles.hpp"
 
 #include <fstream>
@@ -113,7 +113,7 @@ TEST_CASE("group tiles: what is a tile and what is not") {
   CHECK(group_names({"1001.png", "1002.png"}) == std::vector<std::string>{"<UDIM>.png"});
   CHECK(group_names({"a_rough_u1_v1.tif", "a_rough_u2_v1.tif"}) ==
         std::vector<std::string>{"a_rough_<UVTILE>.tif"});
-  // Not tiles: years, sizes, frames, longer numbers, and numbers within a word.
+  // These are not tiles: years, sizes, frames, longer numbers, and numbers within a word.
   for (const std::vector<std::string>& names :
        std::vector<std::vector<std::string>>{{"castle_1905_rough.png"},
                                              {"a_rough_1024.png"},
@@ -124,9 +124,9 @@ TEST_CASE("group tiles: what is a tile and what is not") {
                                              {"a.1000.png", "a.2000.png"},
                                              {"a_U1_V1.png"}})
     CHECK(group_names(names) == names);
-  // Next to other tiles, 1024 is a tile.
+  // If there are other tiles, 1024 is a tile.
   CHECK(group_names({"a.1023.png", "a.1024.png"}) == std::vector<std::string>{"a.<UDIM>.png"});
-  // Tiles of different formats are two maps.
+  // Tiles in different formats are two maps.
   CHECK(group_names({"a.1001.exr", "a.1002.png"}).size() == 2);
 }
 

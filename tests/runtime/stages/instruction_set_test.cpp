@@ -1,4 +1,4 @@
-// Which instruction sets there are, and how a person names one.
+// This file tests which instruction sets exist, and their names on the command line.
 #include <catch2/catch.hpp>
 
 #include "remap/converter.hpp"

@@ -1,4 +1,5 @@
-// Materials for tests of workflow conversions, and an oracle for the projection that shares no code with it.
+// This file makes materials for tests of workflow conversions, and an oracle for the projection that shares
+// no code with it.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using Rgb = std::array<double, 3>;
 
 inline const remap::WorkflowFormula kClean = remap::Projection{remap::kCleanPrior};
 
-// As a map of 8 bits in sRGB holds it.
+// Returns the value as a map of 8 bits in sRGB stores it.
 inline double in_8_bits(double linear) {
   return remap::srgb_to_linear(std::round(255.0 * remap::linear_to_srgb(linear)) / 255.0);
 }
@@ -37,7 +38,7 @@ inline remap::WorkflowConversion gltf(remap::WorkflowFormula formula) {
   return conversion;
 }
 
-// Of two hidden layers.
+// Returns a network with two hidden layers.
 inline remap::LearnedNetwork random_network() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> weight(-0.7, 0.7);
@@ -67,7 +68,7 @@ inline remap::SpecularMaterial random_specular(std::mt19937& random) {
           share(random)};
 }
 
-// The same with no more diffuse reflectance than the specular lobe leaves.
+// Works like the function above, but diffuse and specular together reflect at most the light that arrives.
 inline remap::SpecularMaterial random_reflecting(std::mt19937& random, bool is_plain) {
   remap::SpecularMaterial material = random_specular(random);
   const auto& s = material.specular;
@@ -76,8 +77,8 @@ inline remap::SpecularMaterial random_reflecting(std::mt19937& random, bool is_p
   return material;
 }
 
-// The weighted squared error of metallic and base color for a specular material: sums of squares of both
-// differences and their product, in double precision, as the method is stated.
+// An Oracle computes the weighted squared error of metallic and base color for a specular material by the
+// definition of the method. It sums the squares of both differences and their product, in double precision.
 struct Oracle {
   Rgb diffuse, f0, weight;
   double mixed, specular, dielectric_f0, diffuse_of_albedo;
@@ -106,8 +107,8 @@ struct Oracle {
     return sum;
   }
 
-  // The best base color of one metallic, each channel by golden sections over [0, 1]: the error is convex in
-  // it.
+  // Returns the error of the best base color for one metallic. Each channel is found by golden sections over
+  // [0, 1], because the error is convex in it.
   double best_error(double metallic) const {
     Rgb color{};
     double sum = 0.0;
@@ -131,7 +132,7 @@ struct Oracle {
     return sum;
   }
 
-  // Over a dense grid of metallic.
+  // Returns the least error over a dense grid of metallic.
   double least_error(int steps) const {
     double least = best_error(0.0);
     for (int i = 1; i <= steps; ++i) least = std::min(least, best_error(static_cast<double>(i) / steps));

@@ -1,4 +1,4 @@
-// The pass of a compiled warp against the same warp in double precision, one texel at a time.
+// This file compares the pass of a compiled warp with the same warp in double precision, one texel at a time.
 #include <algorithm>
 #include <random>
 #include <vector>

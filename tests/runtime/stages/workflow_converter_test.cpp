@@ -1,5 +1,5 @@
-// Whole materials between workflows, as a texture pass converts them. texremap_workflow_test compares
-// specular to metallic with the reference, bit for bit.
+// This file tests how a texture pass converts whole materials between workflows. texremap_workflow_test
+// compares specular to metallic with the reference, bit for bit.
 #include <array>
 #include <random>
 #include <vector>
@@ -83,6 +83,6 @@ TEST_CASE(
       for (std::size_t i = 0; i < kTexels; ++i)
         largest = std::max(largest, std::fabs(static_cast<double>(expected[r][i] - found[r][i])));
     CAPTURE(f0);
-    CHECK(largest < 1e-6);  // floats in another order
+    CHECK(largest < 1e-6);  // the order of float operations differs
   }
 }

@@ -1,4 +1,4 @@
-// Images in memory as assets embed or name them, in each format that is read.
+// This file tests images in memory, as assets embed or refer to them, in each format that is supported.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ std::string image_bytes(const std::string& extension, const std::vector<std::str
 TEST_CASE("The codec reads the formats of assets as they are stored", "[texture]") {
   for (const std::string extension : {"png", "tga", "bmp", "tif"})
     for (const bool has_alpha : {false, true}) {
-      if (extension == "bmp" && has_alpha) continue;  // OpenImageIO writes none
+      if (extension == "bmp" && has_alpha) continue;  // OpenImageIO cannot write this
       const std::vector<std::string> channels =
           has_alpha ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"};
       const std::string bytes = image_bytes(extension, channels);
@@ -49,7 +49,7 @@ TEST_CASE("The codec reads the formats of assets as they are stored", "[texture]
     }
 }
 
-// By libwebp's encoder, lossless and exact, which keeps colors of opacity 0.
+// libwebp's encoder writes this WebP lossless and exact, so colors of opacity 0 are kept.
 TEST_CASE("The codec reads WebP as it is stored, colors where nothing is seen among them", "[texture]") {
   const std::string head("RIFF\x34\0\0\0WEBPVP8L\x27\0\0\0\x2f\x02\0\0\0", 25),
       head_of_alpha("RIFF\x38\0\0\0WEBPVP8L\x2b\0\0\0\x2f\x02\0\0\x10", 25),
@@ -74,7 +74,7 @@ TEST_CASE("The codec refuses images of a few bytes that claim more texels than t
   const std::string bytes("RIFF\x16\0\0\0WEBPVP8L\x0a\0\0\0\x2f\xfe\xbf\xff\x0f\0\0\0\0\0", 30);
   CHECK_THROWS_WITH(image_library().codec().decode(bytes, "image"),
                     "image: is damaged: its size of 16383x16383 does not fit a file of 30 bytes");
-  // A BMP of run lengths, which OpenImageIO reads whole when it opens it.
+  // This BMP has run lengths. OpenImageIO reads it whole when it opens it.
   std::string bmp("BM\x3a\x04\0\0\0\0\0\0\x36\x04\0\0\x28\0\0\0", 18);
   bmp += std::string("\x40\x9c\0\0\x40\x9c\0\0\x01\0\x08\0\x01\0\0\0", 16) + std::string(20 + 1024, '\0') +
          std::string("\x02\x05\0\x01", 4);
@@ -96,7 +96,7 @@ TEST_CASE("The codec refuses Targa files with colors behind the end of their pal
   CHECK(decode(targa(1, 8, {1, 0, 1})).width == 3);
   CHECK_THROWS_WITH(decode(targa(1, 8, {1, 0, 2})), behind);
   CHECK_THROWS_WITH(decode(targa(1, 16, {1, 0, 0, 0, 1, 1})), behind);
-  // Runs of one color, and of as many as their length says.
+  // The Targa has runs of one color, and as many as their length states.
   CHECK(decode(targa(9, 8, std::string("\x81\1\0\0", 4))).width == 3);
   CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\x82\2", 2))), behind);
   CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\2\1\0\2", 4))), behind);

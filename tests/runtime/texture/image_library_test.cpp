@@ -1,4 +1,4 @@
-// The module of images is loaded, and what it throws arrives.
+// This file tests that the image module is loaded, and that its exceptions reach the program.
 #include "texture/image_library.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Files of several parts and of several mip levels.
+// This file tests files of several parts and of several mip levels.
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
 
@@ -24,7 +24,7 @@ struct Plane {
   }
 };
 
-// Reads with OpenImageIO alone; the description is empty if the plane does not exist.
+// Reads only with OpenImageIO. The description is empty if the plane does not exist.
 Plane read_plane(const fs::path& path, int part, int level) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
@@ -132,7 +132,7 @@ TEST_CASE("image planes: maps with different numbers of levels are refused") {
                             folder.path() / "out", *converter),
                     Contains("s.exr: number of mip levels is 1, but other maps of the set have 7"));
   CHECK(fs::is_empty(folder.path() / "out"));
-  // A number serves every mip level.
+  // A number is used for every mip level.
   CHECK_NOTHROW(convert((folder.path() / "r.exr").string(), "0.5", folder.path() / "out", *converter));
   CHECK(read_plane(folder.path() / "out" / "specular.exr", 0, 3).spec.width == 8);
 }
@@ -146,7 +146,7 @@ TEST_CASE("image planes: parts with parameters are converted, the others are unc
                                         test_spec(17, 9, {"id"}, OIIO::TypeFloat),
                                         test_spec(40, 30, {"width"}, OIIO::TypeFloat)};
   const bool is_exr = extension == "exr";
-  specs[1].full_width = 40;  // parts of an EXR share their display window
+  specs[1].full_width = 40;  // all parts of an EXR have the same display window
   specs[1].full_height = 30;
   const char* names[] = {"base", "ids", "rough"};
   for (std::size_t p = 0; is_exr && p < 3; ++p) specs[p].attribute("oiio:subimagename", names[p]);
@@ -155,7 +155,7 @@ TEST_CASE("image planes: parts with parameters are converted, the others are unc
   if (is_exr) {
     convert(path + ":rough.width", path + ":base.R,base.G,base.B", folder.path() / "out", *converter);
   } else {
-    // TIFF has no names of channels or parts: colors are found, one of two grey parts is not.
+    // TIFF has no names of channels or parts. Colors are found, but one of two grey parts is not.
     CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter), Contains("have such channels"));
     convert("0.5", path + ":R,G,B", folder.path() / "out", *converter);
   }

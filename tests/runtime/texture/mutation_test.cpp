@@ -1,5 +1,6 @@
-// Damaged files: cut short and with flipped bits. Each one is converted or refused with a reason; no crash,
-// no hang, no file under its final name where it is refused. Sanitizers watch.
+// This file tests damaged files, which are cut short or have flipped bits. Each file is converted or refused
+// with a reason. It must not crash or hang, and a refused file must not appear under its final name.
+// Sanitizers check this, too.
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -36,7 +37,7 @@ std::vector<Format> formats() {
       {"hdr", "", OIIO::TypeFloat}};
 }
 
-// A fifth of the mutations cut the file; of the others, half flip bits where the head is.
+// A fifth of the mutations cut the file. Half of the others flip bits in the header.
 std::string mutated(std::string bytes, int number) {
   std::mt19937 random(static_cast<unsigned>(number));
   const auto below = [&](std::size_t limit) { return static_cast<std::size_t>(random()) % limit; };
@@ -70,7 +71,7 @@ TEST_CASE("damaged files: a PNG chunk longer than the file is refused before mem
   const auto path = folder.path() / "long.png";
   write_image(path, test_spec(4, 4, {"Y"}, OIIO::TypeUInt8), noise);
   std::string bytes = read_file(path);
-  // Behind the header, 33 bytes: a text of 2.8 GB.
+  // Inserts a text chunk that claims 2.8 GB after the header of 33 bytes.
   bytes.insert(33, std::string("\xa8\x00\x00\x00tEXtKey", 11));
   write_file(path, bytes);
   CHECK_THROWS_WITH(ImageReader(path),

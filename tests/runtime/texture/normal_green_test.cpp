@@ -1,4 +1,4 @@
-// Which way green of normal maps points by their names, and copies with green turned.
+// This file tests which direction of green the names of normal maps state, and copies with inverted green.
 #include "texture/normal_green.hpp"
 
 #include <catch2/catch.hpp>

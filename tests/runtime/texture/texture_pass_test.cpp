@@ -1,4 +1,4 @@
-// The streaming pass, compared with the converter applied to each texel.
+// This file compares the streaming pass with the converter applied to each texel.
 #include "texture/texture_pass.hpp"
 
 #include <cmath>
@@ -71,7 +71,7 @@ std::optional<WorkflowEnd> workflow_end(const char* name) {
   return model != nullptr ? std::optional(model->end) : std::nullopt;
 }
 
-// Counts texels instead of asserting each: a hundred converters would make 30 million assertions.
+// Counts texels instead of asserting each. A hundred converters would make 30 million assertions.
 void check_every_texel(const Scene& scene, const Converter& converter) {
   const TestImage in = read_image(scene.specular), width_in = read_image(scene.roughness);
   const TestImage out = read_image(scene.specular_out), width_out = read_image(scene.roughness_out);
@@ -121,7 +121,8 @@ TEST_CASE("texture pass: equals the converter for each texel, for any threads an
 
 TEST_CASE("texture pass: compiled converters give the same results in a map as alone", "[slow]") {
   const Scene scene;
-  std::set<std::pair<RoughnessEncoding, RoughnessEncoding>> seen;  // the pass asks a converter for no more
+  // the pass only depends on both conventions, so each pair is tested once
+  std::set<std::pair<RoughnessEncoding, RoughnessEncoding>> seen;
   for (const auto& converter : shipped_converters()) {
     const ConverterInfo& info = converter->info();
     if (!seen.emplace(info.source.roughness, info.target.roughness).second) continue;
@@ -136,7 +137,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands", "[
     write_image(folder.path() / name, test_spec(kWidth, kHeight, channels, OIIO::TypeFloat), texel);
     return MapName{folder.path() / name, {}};
   };
-  // Dark texels, whose metallic is undetermined, in stripes between metal and plastic.
+  // The texels are dark, with undetermined metallic, in stripes between metal and plastic.
   TextureSetRequest request;
   request.parameters[Parameter::kDiffuse].source = write("d.exr", {"R", "G", "B"}, [](int, int y, int c) {
     return y % 60 < 20 ? 0.0f : y % 60 < 40 ? 0.015f : 0.2f + 0.1f * noise(y, 0, c);

@@ -1,4 +1,4 @@
-// The choice of channels and files for the parameters of a converter.
+// This file tests how channels and files are chosen for the parameters of a converter.
 #include "texture/texture_set.hpp"
 
 #include <ctime>
@@ -50,7 +50,7 @@ std::vector<std::size_t> roughness_channels(const std::filesystem::path& file,
   return channels;
 }
 
-// A TIFF file of parts of one grey texel each.
+// Returns a TIFF file whose parts have one grey texel each.
 std::string tiff_of_parts(std::uint32_t count) {
   std::string bytes("II*\0\x8\0\0\0", 8);
   const auto add = [&](std::uint32_t number, int size) {
@@ -62,7 +62,7 @@ std::string tiff_of_parts(std::uint32_t count) {
     add(std::size(kTags), 2);
     for (const auto& [tag, value] : kTags) {
       add(tag, 2);
-      add(4, 2);  // a number of 32 bits
+      add(4, 2);  // 4 is the type of a 32-bit number
       add(1, 4);
       add(value, 4);
     }
@@ -71,7 +71,7 @@ std::string tiff_of_parts(std::uint32_t count) {
   return bytes;
 }
 
-// Of the processor, for several runs.
+// Returns the processor time of several runs.
 template <typename Run>
 std::clock_t ticks_of(Run run) {
   const std::clock_t start = std::clock();
@@ -105,7 +105,7 @@ TEST_CASE("texture set: the last colon separates a file from its channels") {
   CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
   CHECK(map(":G").file == ":G");
   for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
-  // A file with the whole name takes precedence.
+  // If a file has the whole name, it is used.
   const Files files;
   const std::string odd = files.image("odd:G.exr", {"Y"}).string();
   CHECK(map(odd).file == odd);
@@ -160,7 +160,7 @@ TEST_CASE("texture set: colors in whole numbers are read as sRGB, unless the fil
   const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer_reason == TransferReason::kFile);
-  // The role decides, not the number of channels; a roughness is data.
+  // The role decides, not the number of channels. A roughness is data.
   CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kSrgb);
   for (const std::string extension : {"png", "tga", "tif", "bmp", "jpg"}) {
@@ -203,8 +203,8 @@ TEST_CASE("image reader: only the first part of a file counts the parts, which t
 TEST_CASE("texture set: a lack of open files is no fault of the image") {
   const Files files;
   const auto image = files.image("r.exr", {"Y"});
-  (void)image_library();  // is loaded from files, too
-  // As many as are open.
+  (void)image_library();  // loads the module first, because loading opens files, too
+  // The limit is the number of open files.
   const int next = ::open("/dev/null", O_RDONLY);
   ::close(next);
   rlimit limits{};
@@ -216,7 +216,8 @@ TEST_CASE("texture set: a lack of open files is no fault of the image") {
   try {
     ImageReader reader(image);
   } catch (const Error& error) {
-    ::setrlimit(RLIMIT_NOFILE, &limits);  // first: a sanitizer opens files to look at an object
+    // restores the limit first, because a sanitizer opens files to examine an object
+    ::setrlimit(RLIMIT_NOFILE, &limits);
     message = error.what();
   }
   ::setrlimit(RLIMIT_NOFILE, &limits);

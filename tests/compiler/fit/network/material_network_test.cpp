@@ -1,4 +1,5 @@
-// Networks from the specular to the metallic workflow: the check of the rows, the fit, and invalid tables.
+// This file tests networks from the specular to the metallic workflow: the check of the rows, the fit, and
+// invalid tables.
 #include "fit/network/material_network.hpp"
 
 #include <cmath>
@@ -14,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Rows of equation (2), as remapc sample writes them.
+// Returns rows of equation (2), as remapc sample writes them.
 MaterialTable family_table(std::size_t count, double f0) {
   MaterialTable table;
   table.name = "family.csv";
@@ -59,7 +60,7 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
   CHECK(fit.conversion.source_model() == "mitsuba/ggx");
   CHECK(fit.conversion.target_model() == "mitsuba/ggx-metallic");
   CHECK(std::string(material_kind(fit)) == "mlp");
-  // Read off the dielectrics of the table; tables that are off equation (2) are refused below.
+  // The F0 comes from the dielectrics of the table. Tables that contradict equation (2) are refused below.
   CHECK_THAT(fit_to_json(fit), Contains("\"dielectric_f0\": 0.03"));
   REQUIRE(fit.training);
   CHECK(fit.training->metallic.rms < 0.08);

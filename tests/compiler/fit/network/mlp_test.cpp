@@ -1,4 +1,5 @@
-// The kind `mlp`: errors on unseen rows of the published table, what its method records, determinism.
+// This file tests the kind `mlp`: errors on unseen rows of the published table, what its method records,
+// determinism.
 #include "fit/network/mlp.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using namespace remap;
 
 namespace {
 
-// A table of 12 widths and 9 speculars of a smooth mapping, with duplicates.
+// Returns rows of a smooth mapping with 12 widths and 9 speculars, some of them twice.
 std::vector<TableRow> smooth_rows() {
   std::vector<TableRow> rows;
   for (int i = 0; i < 12; ++i)
@@ -71,8 +72,9 @@ TEST_CASE("mlp: errors on unseen rows of the published table", "[slow][campaign]
   }
   std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha_mean
             << ", specular rms " << specular_mean << ", " << seconds << " s a fit\n";
-  // Measured over five: 1.2e-5 and 3.3e-5 (gcc 12). The bounds leave room for another libm, and stay far
-  // below what support vector regression (Sztrajman et al. 2019) reaches here, 3.3e-4 and 2.9e-4.
+  // The means over five seeds are 1.2e-5 and 3.3e-5 (gcc 12). The bounds allow for another math library. They
+  // are far below the errors of support vector regression (Sztrajman et al. 2019) on this table, 3.3e-4 and
+  // 2.9e-4.
   CHECK(alpha_mean <= 5e-5);
   CHECK(specular_mean <= 1e-4);
 }

@@ -1,5 +1,6 @@
-// Networks and their training: derivatives against finite differences, outputs against the interpreter's
-// formula, a known function of six inputs and four outputs, determinism, and samples that must be refused.
+// This file tests networks and their training: derivatives against finite differences, outputs against the
+// interpreter's formula, a known function of six inputs and four outputs, determinism, and samples that must
+// be refused.
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -25,7 +26,7 @@ namespace {
 constexpr std::array<Activation, 3> kTestedActivations = {Activation::kRelu, Activation::kTanh,
                                                           Activation::kSilu};
 
-// Uniform in [low, high), the same with every standard library.
+// Uniform returns numbers in [low, high), the same with every standard library.
 class Uniform {
  public:
   explicit Uniform(std::uint64_t seed) : random_(seed) {}
@@ -43,9 +44,9 @@ MatrixXd uniform_matrix(Uniform& uniform, Index rows, Index columns, double reac
   return matrix;
 }
 
-// Diffuse and specular color (6) of base color and metallic (4) by equation (2) of Sztrajman et al. (2019),
-// and the way back as what is to be learned. Base colors stay 0.2 away from the reflectance of dielectrics,
-// where the way back is not unique.
+// Returns samples of the inverse of equation (2) of Sztrajman et al. (2019): from diffuse and specular color
+// (6) to base color and metallic (4). Base colors differ by at least 0.2 from the reflectance of dielectrics,
+// where the inverse is not unique.
 Samples metallic_samples(std::size_t count, std::uint64_t seed) {
   Uniform uniform(seed);
   Samples samples{6, 4, {}, {}};
@@ -94,7 +95,7 @@ TEST_CASE("network batch: Jacobian and gradient agree with finite differences fo
     VectorXd gradient(count);
     batch.gradient(parameters.data(), by_outputs, gradient.data());
     for (Index p = 0; p < count; ++p) {
-      constexpr double kStep = 1e-6;  // error of the difference: step^2 and 1e-16 / step
+      constexpr double kStep = 1e-6;  // its error is about step^2 + 1e-16 / step
       VectorXd moved = parameters;
       moved[p] += kStep;
       const MatrixXd ahead = batch.forward(moved.data());
@@ -121,7 +122,7 @@ TEST_CASE("network batch: outputs are those of the interpreter's formula") {
     for (Index n = 0; n < inputs.cols(); ++n) {
       const VectorXd column = inputs.col(n);
       const auto expected = network_outputs(network, std::vector<double>(column.begin(), column.end()));
-      // The margin covers sums of at most 9 products in another order.
+      // The margin allows sums of up to 9 products in another order.
       for (Index k = 0; k < 4; ++k)
         CHECK(outputs(k, n) == Approx(expected[static_cast<std::size_t>(k)]).margin(1e-12));
     }
@@ -137,7 +138,8 @@ TEST_CASE("network training: reported errors are those of the stored network") {
     options.starts = 2;
     const TrainedNetwork trained = train_network(samples, options);
     CHECK(trained.rows == 60);
-    // All rows train in the end, so the sum over them in normalised units is the reported figure.
+    // All rows are trained in the end, so the reported figure is the error over all of them, in normalised
+    // units.
     double sum = 0.0;
     for (std::size_t n = 0; n < samples.count(); ++n) {
       const auto from = samples.inputs.begin() + static_cast<std::ptrdiff_t>(6 * n);
@@ -166,7 +168,7 @@ TEST_CASE("network training: six inputs and four outputs are learned by both opt
     const double rms = unseen_rms(trained.network, unseen);
     std::cout << "metallic: " << trained.method << "; rms on unseen rows " << rms << ", " << seconds
               << " s\n";
-    CHECK(rms < 0.004);  // a step of 8 bits
+    CHECK(rms < 0.004);  // one step of 8 bits
   }
 }
 

@@ -1,4 +1,5 @@
-// The parametric regression on tables with a known answer, on the published table, and on invalid tables.
+// This file tests the parametric regression on tables with a known answer, on the published table, and on
+// invalid tables.
 #include "fit/parametric/parametric.hpp"
 
 #include <cmath>
@@ -17,7 +18,7 @@ using namespace made_table;
 
 namespace {
 
-// k of the paper's own coefficients, for comparison: c0 + c1 exp(-c2 a) + c3 exp(-c4 a^2).
+// Returns k with the paper's own coefficients: c0 + c1 exp(-c2 a) + c3 exp(-c4 a^2).
 double paper_slope(const std::array<double, 5>& c, double a) {
   return c[0] + c[1] * std::exp(-c[2] * a) + c[3] * std::exp(-c[4] * a * a);
 }
@@ -39,7 +40,7 @@ TEST_CASE("parametric: recovers the coefficients that a table was made from") {
 TEST_CASE(
     "parametric: a slope that the paper writes with coefficients of 512 is fitted with numbers of order "
     "one") {
-  // Appendix A, Ward -> AS: -512.13 + 512.75 exp(-0.00057 a) + 0.398 exp(-3.12 a^2).
+  // Appendix A has -512.13 + 512.75 exp(-0.00057 a) + 0.398 exp(-3.12 a^2) for Ward -> AS.
   const std::array<double, 5> published = {-512.13, 512.75, 0.00057, 0.398, 3.12};
   Table table = table_of(kStraight);
   for (TableRow& row : table.rows) row.specular2 = row.specular1 * paper_slope(published, row.alpha1);
@@ -88,17 +89,17 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
   const Mean paper = mean_of("paper", kSeeds);
   CHECK(paper.alpha <= 7.5e-4);
   CHECK(paper.specular <= 9.5e-4);
-  // scikit-learn found 1.043, -0.387, -0.332, 0.249 on a split of its own; splits differ by some hundredths.
+  // scikit-learn found 1.043, -0.387, -0.332, 0.249 on another split. Splits differ by a few hundredths.
   CHECK(paper.quartic[0] == Approx(1.043).margin(0.01));
   CHECK(paper.quartic[1] == Approx(-0.387).margin(0.03));
   CHECK(paper.quartic[2] == Approx(-0.332).margin(0.05));
   CHECK(paper.quartic[3] == Approx(0.249).margin(0.03));
-  // The authors' scripts reach 5.9e-4 with c5 / alpha, without the smallest alpha; this is with it.
+  // The authors' scripts reach 5.9e-4 with c5 / alpha, but omit the smallest alpha. This test includes it.
   CHECK(mean_of("paper+pole", kSeeds).specular <= 6.8e-4);
 }
 
 TEST_CASE("parametric: a curve that bends inside the domain is refused with the alpha at which it does") {
-  // The curve rises to alpha 0.5 and falls beyond; the table has no rows near the bend.
+  // The curve rises to alpha 0.5 and falls beyond. The table has no rows near the bend.
   const Parametric bent = paper_form({1.0, -1.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Table table = table_of(bent, 0.02, 0.45, 20);
   const ParametricForm paper = find_form("paper");
@@ -108,7 +109,7 @@ TEST_CASE("parametric: a curve that bends inside the domain is refused with the 
   CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}, paper));
 }
 
-// fit/kinds_test has the tables that every kind meets.
+// fit/kinds_test has the tables that test every kind.
 TEST_CASE("parametric: unusual tables are fitted, or refused with the reason", "[slow]") {
   const Parametric truth = paper_form({1.04, -0.388, -0.332, 0.25}, {1.02, -0.4, 1.7, -1.1, 3.3, 0.0});
   Table table = table_of(truth);

@@ -1,4 +1,5 @@
-// Support vector regression on the published table, on unusual tables, and against libsvm itself.
+// This file tests support vector regression on the published table, on unusual tables, and against libsvm
+// itself.
 #include "fit/svr/svr.hpp"
 
 #include <chrono>
@@ -26,7 +27,7 @@ using namespace remap;
 
 namespace {
 
-// A smooth conversion; `coupling` makes target alpha depend on specular.
+// Returns rows of a smooth conversion. With `coupling`, target alpha depends on specular.
 std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupling = 0.0) {
   std::vector<TableRow> rows;
   for (int i = 0; i < widths; ++i) {
@@ -40,7 +41,7 @@ std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupl
   return rows;
 }
 
-// Hyper-parameters that fit made_rows() well, for tests of other things.
+// Returns hyper-parameters that fit made_rows() well, for tests that need no search.
 SvrOptions given() {
   SvrOptions options;
   options.alpha = SvrHyperParameters{10.0, 3.2, 1e-3, 1.0};
@@ -119,20 +120,21 @@ TEST_CASE("svr: errors on unseen rows of the published table", "[slow][campaign]
     alpha += errors.alpha.rms / seeds;
     specular += errors.specular.rms / seeds;
     largest += errors.specular.max / seeds;
-    // The cross-validation error holds on unseen rows; folds differ by a factor of two.
+    // The error of the cross-validation must hold on unseen rows. Folds differ by a factor of two.
     CHECK(errors.specular.rms < 2.0 * *parse_number(fit.method.at("specular.cross_validation_rms")));
   }
   std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha << ", specular rms "
             << specular << " max " << largest << "\n";
-  // scikit-learn's grid search on splits of its own: alpha 3.3e-4, specular 2.9e-4, max 8.5e-4. Measured here
-  // over five: 1.2e-4, 1.2e-4, 5.8e-4. The first seed alone has to keep the same bounds.
+  // scikit-learn's grid search on other splits gave alpha 3.3e-4, specular 2.9e-4, max 8.5e-4. Here the means
+  // over five seeds are 1.2e-4, 1.2e-4, 5.8e-4. A single seed must meet the same bounds.
   CHECK(alpha <= 1.6e-4);
   CHECK(specular <= 1.6e-4);
   CHECK(largest <= 8.5e-4);
 }
 
 TEST_CASE("svr: a fit equals libsvm's prediction with its vectors") {
-  // Sums of some dozens of Gaussians whose weights reach C: rounding differs in the order of operations only.
+  // Only the order of operations rounds differently. The sums have some dozens of Gaussians with weights up
+  // to C.
   for (const double coupling : {0.0, 0.2}) {
     const Regression fit = fit_svr(made_rows(12, 6, coupling), given());
     const auto& svr = std::get<Svr>(fit.mapping);

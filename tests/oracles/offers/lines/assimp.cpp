@@ -1,6 +1,6 @@
-// The lines for assimp's glTF export. Material and types of the input are assimp's, read from an MTL file by
-// assimp; what is written are members of glTF2Asset.h, which no package has: `vec3` and `vec4` are arrays of
-// float there, too.
+// This program contains the lines for assimp's glTF export. assimp reads the material from an MTL file, and
+// its types are the input. The output has the members of glTF2Asset.h, which is in no package. There, `vec3`
+// and `vec4` are also arrays of float.
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>

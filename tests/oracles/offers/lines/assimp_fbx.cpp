@@ -1,4 +1,5 @@
-// The lines for assimp's FBX import. The numbers come from an aiMaterial, as the converter writes them.
+// This program contains the lines for assimp's FBX import. The numbers come from an aiMaterial, as the
+// converter writes them.
 #include <algorithm>
 #include <assimp/material.h>
 #include <cmath>

@@ -1,5 +1,5 @@
-// The lines for Blender's OBJ import. No package has its headers: float3 and MTLMaterial have the members
-// that are used here.
+// This program contains the lines for Blender's OBJ import. Its headers are in no package, so float3 and
+// MTLMaterial here have only the members that are used.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// The lines for IfcOpenShell, whose serializer builds its file as nlohmann::json.
+// This program contains the lines for IfcOpenShell, whose serializer builds its file as nlohmann::json.
 #include <algorithm>
 #include <array>
 #include <cmath>

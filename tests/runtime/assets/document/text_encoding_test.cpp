@@ -1,4 +1,4 @@
-// Texts of bytes and of UTF-16, and MTL and OBJ files in them.
+// This file tests texts of bytes and of UTF-16, and MTL and OBJ files in both encodings.
 #include "assets/document/text_encoding.hpp"
 
 #include <random>
@@ -26,7 +26,7 @@ std::string decoding_refusal(const std::string& bytes) {
   return "";
 }
 
-// Text of letters, of characters of two to four bytes, and of line ends.
+// Returns a text of letters, of characters of two to four bytes, and of line endings.
 std::string random_text(std::mt19937& random, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("UTF-16 becomes UTF-8 and the same bytes again", "[assets]") {
       REQUIRE(encoding_of(MemorySource(bytes)) == encoding);
       REQUIRE(decoded(bytes) == text);
     }
-  // Characters on the edges of blocks, too.
+  // Some characters lie on the edges of blocks.
   const std::string text = kMark + "x" + random_text(random, std::size_t{1} << 20);
   CHECK(decoded(encoded(text, TextEncoding::kUtf16Big, "file")) == text);
 }
@@ -72,7 +72,7 @@ TEST_CASE("Half a character of UTF-16 is refused with its place", "[assets]") {
       "\xff\xfe" + std::string((std::size_t{1} << 20) - 4, 'x') + std::string("\x3d\xd8x\0", 4);
   CHECK(decoding_refusal(edge) == refusal((1 << 20) - 2));
   CHECK_THROWS_WITH(encoded("caf\xe9", TextEncoding::kUtf16Big, "file"),
-                    "file: names a file whose name UTF-16 cannot hold (rename the file)");
+                    "file: refers to a file whose name UTF-16 cannot store (rename the file)");
 }
 
 TEST_CASE("An MTL file of UTF-16 is edited as one of UTF-8", "[assets]") {

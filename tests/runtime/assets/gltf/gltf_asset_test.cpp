@@ -1,4 +1,4 @@
-// Whole glTF files: containers, spec-gloss materials, and what a conversion keeps.
+// This file tests whole glTF files: containers, spec-gloss materials, and what a conversion must not change.
 #include "assets/gltf/gltf_asset.hpp"
 
 #include <chrono>
@@ -29,7 +29,7 @@ std::string asset_failure(const std::string& bytes) {
   return "";
 }
 
-// The text of the only material after a conversion.
+// Returns the text of the only material after a conversion.
 std::string material_of(const std::string& text, const AssetOptions& options = {}) {
   const std::string json = converted_bytes(text, options);
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
@@ -100,7 +100,7 @@ TEST_CASE("What cannot be represented is said", "[assets]") {
         std::vector<std::string>{
             "loses extensions (ACME) of KHR_materials_pbrSpecularGlossiness",
             "loses odd of KHR_materials_pbrSpecularGlossiness",
-            "KHR_materials_clearcoat, ignored beside spec-gloss, takes effect from now on"});
+            "KHR_materials_clearcoat, ignored in spec-gloss materials, takes effect from now on"});
   CHECK(failure(specgloss_text(R"({"diffuseFactor":[1,1,1]})")) ==
         "diffuseFactor: expected a list of 4 numbers, found [1,1,1]");
   CHECK(failure(specgloss_text(R"({"glossinessFactor":"a"})")) ==
@@ -130,8 +130,8 @@ TEST_CASE("A failed material keeps the extension in its lists", "[assets]") {
   CHECK(result.text.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
         std::string::npos);
   CHECK(result.warnings ==
-        std::vector<std::string>{"requires A, which is unknown here: it is kept, and its meaning for "
-                                 "materials is not"});
+        std::vector<std::string>{"requires A, which texremap does not know: it stays, but may not fit the "
+                                 "converted materials"});
 }
 
 TEST_CASE("A file without spec-gloss is left alone", "[assets]") {
@@ -148,7 +148,7 @@ TEST_CASE("Containers keep their chunks", "[assets]") {
   CHECK(converted == glb_bytes(converted_bytes(specgloss_text("{}")), binary + own));
   CHECK(converted_bytes(converted) == converted);
   CHECK(convert_gltf(MemorySource(bytes), "a").warnings ==
-        std::vector<std::string>{"its JSON is padded with zeros where glTF requires spaces"});
+        std::vector<std::string>{"its JSON is padded with zeros instead of the spaces that glTF requires"});
 }
 
 TEST_CASE("Damaged containers are refused", "[assets]") {
@@ -169,7 +169,8 @@ TEST_CASE("Damaged containers are refused", "[assets]") {
   CHECK(asset_failure(lies) == "a.glb: its first chunk is not JSON");
   CHECK(asset_failure("glTF" + four_bytes(2) + four_bytes(12)) == "a.glb: has no JSON chunk");
   CHECK(asset_failure("{}") == "a.glb: has no asset.version (it is not a glTF file)");
-  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") == "a.glb: is glTF 1.0, but only glTF 2 can be read");
+  CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") ==
+        "a.glb: is glTF 1.0, but only glTF 2 can be read (convert it to glTF 2 first)");
   CHECK(asset_failure(R"({"asset":{"version":"2.0"},"materials":{}})") ==
         "a.glb: materials: expected a list");
 }
@@ -225,7 +226,7 @@ TEST_CASE("A hundred thousand materials take a moment", "[assets][slow]") {
 
 namespace {
 
-// Random JSON with the formatting of nobody.
+// A RandomText writes random JSON in unusual formatting.
 class RandomText {
  public:
   explicit RandomText(std::uint32_t seed) : random_(seed) {}
@@ -296,7 +297,7 @@ std::string random_specgloss(RandomText& random) {
   return random.object(members);
 }
 
-// `has_dielectrics`: some with KHR_materials_specular and _ior.
+// With `has_dielectrics`, some materials have KHR_materials_specular and _ior.
 std::string random_material(RandomText& random, bool has_dielectrics) {
   RandomMembers members, extensions;
   if (random.often(50)) members.emplace_back("\"name\"", random.word());
@@ -401,7 +402,7 @@ TEST_CASE("Public files keep every byte but those of converted materials", "[ass
     folded.folds_specular = true;
     for (const AssetOptions& options : {AssetOptions(), specgloss, folded}) {
       const std::string after = converted_bytes(bytes, options);
-      const AssetConversion result = result_of(bytes, options);  // images are converted by tests/cli
+      const AssetConversion result = result_of(bytes, options);  // tests/cli converts files with images
       CHECK(require_others_kept(json_in(bytes), json_in(after), options) ==
             result.count(MaterialState::kConverted));
       CHECK(converted_bytes(after, options) == after);

@@ -1,5 +1,6 @@
-// Core materials become spec-gloss, and KHR_materials_specular and _ior go into core. What results mean is
-// read from their JSON after the texts of glTF 2.0 and the extensions, not by the code under test.
+// This file tests that core materials become spec-gloss, and that KHR_materials_specular and _ior are folded
+// into core. It computes the meaning of a result from its JSON, by the texts of glTF 2.0 and the extensions.
+// It does not use the code under test for this.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 
 using Color = std::array<double, 3>;
 
-// What a surface reflects: the diffuse lobe's reflectance, F0, roughness.
+// A Surface is what a surface reflects: the diffuse lobe's reflectance, F0, roughness.
 struct Surface {
   Color diffuse{}, f0{};
   double roughness = 0.0;
@@ -38,8 +39,8 @@ Color color_in(SpanValue object, const char* name) {
 
 double largest_of(const Color& color) { return *std::ranges::max_element(color); }
 
-// glTF 2.0, appendix B, with the F0 of KHR_materials_specular: min(((ior - 1) / (ior + 1))^2 color, 1)
-// factor. The dielectric's diffuse lobe has what the largest channel of its F0 leaves.
+// This is glTF 2.0, appendix B, with the F0 of KHR_materials_specular: min(((ior - 1) / (ior + 1))^2 color,
+// 1) factor. The dielectric's diffuse lobe gets the light that the largest channel of F0 does not reflect.
 Surface core_surface(SpanValue material) {
   const SpanValue core = material["pbrMetallicRoughness"], extensions = material["extensions"],
                   specular = extensions["KHR_materials_specular"];
@@ -59,7 +60,7 @@ Surface core_surface(SpanValue material) {
   return surface;
 }
 
-// KHR_materials_pbrSpecularGlossiness, appendix: c_diff = diffuse (1 - max(specular)), F0 = specular,
+// This is KHR_materials_pbrSpecularGlossiness, appendix: c_diff = diffuse (1 - max(specular)), F0 = specular,
 // alpha = (1 - glossiness)^2.
 Surface specgloss_surface(SpanValue material) {
   const SpanValue extension = material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
@@ -117,7 +118,7 @@ class RandomMaterials {
 
   double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
   Color color(double most = 1.0) { return {most * unit(), most * unit(), most * unit()}; }
-  // One of three is a metal, one a dielectric.
+  // One of three materials is a metal, one a dielectric.
   std::string core() {
     const double kind = unit(), metallic = kind < 0.33 ? 0.0 : kind < 0.66 ? 1.0 : unit();
     return R"("pbrMetallicRoughness":{"baseColorFactor":)" +
@@ -149,8 +150,8 @@ TEST_CASE("Core materials become spec-gloss ones that reflect the same", "[asset
     const SpannedJson before_json(text, "before"), json(after, "after");
     const SpanValue before = before_json.root()["materials"].children()[0],
                     material = json.root()["materials"].children()[0];
-    // Five decimals of floats: where little light is left for diffuse, its factor is a quotient of small
-    // numbers.
+    // Five decimals of floats must agree. If little light is left for diffuse, its factor is a quotient of
+    // small numbers.
     require_alike(specgloss_surface(material), core_surface(before), 1e-5);
     CHECK(material["pbrMetallicRoughness"].raw() == before["pbrMetallicRoughness"].raw());
     CHECK_FALSE(material["extensions"]["KHR_materials_ior"]);
@@ -186,14 +187,12 @@ TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
         .materials.at(0)
         .failure;
   };
-  CHECK(
-      failures(R"("KHR_materials_clearcoat":{})") ==
-      "has KHR_materials_clearcoat, which viewers ignore beside spec-gloss (remove it, or leave the material "
-      "as it is)");
+  CHECK(failures(R"("KHR_materials_clearcoat":{})") ==
+        "has KHR_materials_clearcoat, which viewers ignore in spec-gloss materials (remove it, or keep the "
+        "material unchanged)");
   CHECK(failures(R"("ACME_fur":{})") ==
-        "has ACME_fur, which is unknown here and may have no meaning beside spec-gloss (remove it, or leave "
-        "the "
-        "material as it is)");
+        "has ACME_fur, which is unknown and may have no effect in spec-gloss materials (remove it, "
+        "or keep the material unchanged)");
   CHECK(failures(R"("KHR_materials_ior":{"ior":0.5})") == "ior 0.5: expected 0 or a number from 1");
   CHECK(failures(R"("KHR_materials_emissive_strength":{})").empty());
   const std::string text = file_with(
@@ -221,7 +220,7 @@ TEST_CASE("Core materials come back from spec-gloss", "[assets]") {
     for (std::size_t c = 0; c < 3; ++c)
       largest = std::max({largest, std::fabs(a.diffuse[c] - b.diffuse[c]), std::fabs(a.f0[c] - b.f0[c])});
   }
-  // The prior of the projection moves materials between dielectrics and metals a little.
+  // The prior of the projection slightly changes materials between dielectrics and metals.
   CHECK(largest < 2e-4);
   INFO(largest);
 }
@@ -242,7 +241,7 @@ TEST_CASE("Folding the exact form gives the core form", "[assets]") {
     const SpanValue expected = b.root()["materials"].children()[0];
     const Color base = color_in(material["pbrMetallicRoughness"], "baseColorFactor"),
                 expected_base = color_in(expected["pbrMetallicRoughness"], "baseColorFactor");
-    // Diffuse passes through its reflectance and back.
+    // Diffuse is converted to its reflectance and back, which rounds it.
     for (std::size_t c = 0; c < 3; ++c) CHECK(base[c] == Approx(expected_base[c]).margin(1e-6));
     for (const char* name : {"metallicFactor", "roughnessFactor"})
       CHECK(number_in(material["pbrMetallicRoughness"], name, 1.0) ==
@@ -275,10 +274,10 @@ TEST_CASE("What folding leaves alone", "[assets]") {
           kDielectrics)),
       "file", folding());
   CHECK(result.materials[0].failure ==
-        "has KHR_materials_volume, which needs KHR_materials_ior (leave it as it is)");
+        "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --fold-specular)");
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.count(MaterialState::kUntouched) == 2);
-  // Two materials still use the index; nothing is known to use the other.
+  // Two materials still use KHR_materials_ior. Nothing uses the other extension any more, so it is removed.
   CHECK(result.text.find("\"KHR_materials_ior\"],") != std::string::npos);
   AssetOptions wrong = folding();
   wrong.extensions = true;
@@ -312,7 +311,7 @@ TEST_CASE("Indices and specular colors of public files go into core", "[assets][
                                materials = json.root()["materials"].children();
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const Surface a = core_surface(before[i]), b = core_surface(materials[i]);
-    // A grey plastic with an F0 of .034 to .111 is near to what core represents.
+    // A grey plastic with an F0 of .034 to .111 is close to what core can represent.
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(a.f0[c] == Approx(b.f0[c]).margin(0.02));
       CHECK(a.diffuse[c] == Approx(b.diffuse[c]).margin(0.05));

@@ -1,4 +1,5 @@
-// Textured materials: which images are made, what they hold, and where they go. The codec is PlainCodec.
+// This file tests textured materials: which images are made, what they hold, and where they are stored. The
+// codec is PlainCodec.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ using namespace remap;
 
 namespace {
 
-// Linear, 0 to 1.
+// These factors are linear, 0 to 1.
 struct SpecGlossFactors {
   std::array<double, 3> diffuse{}, specular{};
   double glossiness = 1.0;
@@ -27,7 +28,7 @@ MetalRoughFactors projected(const SpecGlossFactors& material) {
                              {Parameter::kRoughness, {roughness_of(material.glossiness)}}}));
 }
 
-// Compares each texel with the conversion of factors.
+// Compares each texel with a conversion of factors.
 void require_projected(const Reread& after, SpanValue core, const ImagePixels& diffuse,
                        const ImagePixels& specgloss, const SpecGlossFactors& factors, double step) {
   const ImagePixels base = after.image(core["baseColorTexture"]),
@@ -83,7 +84,7 @@ TEST_CASE("Both maps become base color and metallic-roughness, texel by texel", 
                           0.51 / 255.0 + 1e-4);
         CHECK(require_others_kept(read_container(MemorySource(bytes), "before").json, after.container.json) ==
               1);
-        // The binary chunk begins as it did, and the private chunk follows it.
+        // The binary chunk begins with the same bytes as before, and the private chunk follows it.
         const GltfContainer before = read_container(MemorySource(bytes), "before");
         const std::uint64_t start = before.chunks[0].begin + 8, size = before.chunks[0].end - start;
         CHECK(after.bytes.substr(after.container.chunks[0].begin + 8, size) == bytes.substr(start, size));
@@ -230,11 +231,12 @@ TEST_CASE("A material whose image is missing fails, and others go on", "[assets]
       textured(R"("diffuseTexture":{"index":2})") + "," + textured(R"("diffuseTexture":{"index":3})") +
       R"(],"textures":[{"source":0},{"source":1},{"extensions":{"KHR_texture_basisu":{"source":2}}},{}],)"
       R"("images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"https://example.org/c.ktx2"}]})";
-  CHECK(failures_of(text, kCoreOptions, resources) ==
-        std::vector<std::string>{
-            "", "a.png: is not there", "image 1: is no image",
-            "https://example.org/c.ktx2: is not in a file here (download it beside the asset)",
-            "texture 3 has no image that is known here"});
+  CHECK(
+      failures_of(text, kCoreOptions, resources) ==
+      std::vector<std::string>{
+          "", "a.png: is not there", "image 1: is no image",
+          "https://example.org/c.ktx2: is a remote address (download the file into the folder of the asset)",
+          "texture 3 has no image that is known here"});
 }
 
 TEST_CASE("The best image that can be decoded is taken", "[assets]") {
@@ -267,7 +269,7 @@ TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
 
 namespace {
 
-// A container of almost 4 GiB that takes no memory.
+// A HugeSource is a container of almost 4 GiB that needs no memory.
 class HugeSource final : public ByteSource {
  public:
   explicit HugeSource(std::string start) : start_(std::move(start)) {}

@@ -1,4 +1,5 @@
-// Textured core materials as spec-gloss and folded, compaction, baking and JPEG. The codec is PlainCodec.
+// This file tests textured core materials as spec-gloss and folded, compaction, baking and JPEG. The codec is
+// PlainCodec.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,8 +42,8 @@ std::string core_textured(const std::string& members, const std::string& more = 
 
 const std::string kCoreBoth = R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1})";
 
-// A texel of a core material after glTF 2.0, and of the spec-gloss material after its extension: reflectance
-// of the diffuse lobe and F0.
+// A TexelLobes holds the diffuse reflectance and F0 of a texel: of a core material by glTF 2.0, or of a
+// spec-gloss material by its extension.
 struct TexelLobes {
   std::array<double, 3> diffuse{}, f0{};
 };
@@ -61,7 +62,7 @@ double srgb_of(double value) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
 
-// Half a step of 8 bits, and what floats add.
+// This is half a step of 8 bits, plus the errors of floats.
 constexpr double kHalfStep = 0.51 / 255.0;
 
 const SpanValue extension_of(const Reread& after, std::size_t index) {
@@ -128,16 +129,16 @@ TEST_CASE("Spec-gloss maps are made once, and only where they vary", "[assets]")
               core_textured(R"("metallicFactor":0,"baseColorTexture":{"index":0,"extras":1},)"
                             R"("metallicRoughnessTexture":{"index":1,"texCoord":1})")),
       specgloss_target());
-  // Of dielectrics diffuse is base color, and specular one number.
+  // If the material is a dielectric, diffuse is base color, and specular is one number.
   const SpanValue first = extension_of(after, 0);
   CHECK(first["diffuseTexture"].raw() == R"({"index":0})");
   CHECK(first["specularFactor"].raw() == "[0.04,0.04,0.04]");
   CHECK(extension_of(after, 1).raw() == first.raw());
-  // Of metals with alpha the base map stays, times black, for its alpha.
+  // If the material is a metal with alpha, the base map stays for its alpha, multiplied by black.
   CHECK(extension_of(after, 2)["diffuseFactor"].raw() == "[0,0,0,1]");
   CHECK(extension_of(after, 2)["diffuseTexture"].raw() == R"({"index":0})");
   CHECK(extension_of(after, 2)["glossinessFactor"].raw() == "0.8");
-  // Without metallic there is no need of one grid.
+  // Without a metallic map, textures need not share a grid.
   CHECK(extension_of(after, 3)["diffuseTexture"].raw() == R"({"index":0,"extras":1})");
   CHECK(extension_of(after, 3)["specularGlossinessTexture"]["texCoord"].raw() == "1");
   CHECK(after.root()["images"].size() == 5);
@@ -222,7 +223,7 @@ TEST_CASE("Folding the exact form of maps gives the maps of core", "[assets]") {
     const ImagePixels a = core.image(core.material(0)["pbrMetallicRoughness"][name]),
                       b = folded.image(folded.material(0)["pbrMetallicRoughness"][name]);
     REQUIRE(a.bytes.size() == b.bytes.size());
-    // Roughness was rounded to 8 bits on the way, and the projection depends on it a little.
+    // In between, roughness was rounded to 8 bits, which slightly affects the projection.
     for (std::size_t i = 0; i < 30; ++i)
       for (std::size_t c = 0; c < a.channels; ++c)
         CHECK(value_at(a, i, c) == Approx(value_at(b, i, c)).margin((tolerance + 0.01) / 255.0));
@@ -252,7 +253,7 @@ TEST_CASE("Compaction gives places of spare images to new ones, and cuts their b
   for (const char* name : {"baseColorTexture", "metallicRoughnessTexture"})
     CHECK(after.image(core[name]).bytes == plain.image(plain_core[name]).bytes);
   CHECK(core["metallicRoughnessTexture"].raw() == R"({"index":1})");
-  // The mesh, and two images of three channels.
+  // The chunk has the mesh, and two images of three channels.
   CHECK(chunk_length(after) == 4 + 96 + 95);
   CHECK(after.bytes.ends_with("mine"));
   CHECK(reread(after.bytes, with_compaction()).bytes == after.bytes);
@@ -262,18 +263,18 @@ TEST_CASE("Compaction keeps what others use", "[assets]") {
   const ImagePixels shared = random_pixels(3, 1), odd = random_pixels(4, 2), mesh = random_pixels(3, 3);
   const std::string failing =
       textured(R"("diffuseTexture":{"index":0,"texCoord":1},"specularGlossinessTexture":{"index":1})");
-  // A material that fails uses both images.
+  // A material that fails still uses both images.
   const Reread failed =
       reread(container_of({shared, odd}, textured(kBoth) + "," + failing), with_compaction());
   CHECK(failed.root()["images"].size() == 4);
-  // An occlusion map of a converted material.
+  // A converted material has an occlusion map.
   std::string occluded = textured(kBoth);
   occluded.replace(occluded.size() - 1, 1, R"(,"occlusionTexture":{"index":1}})");
   const Reread kept = reread(container_of({shared, odd}, occluded), with_compaction());
   CHECK(kept.root()["images"].size() == 3);
   CHECK(kept.image(kept.material(0)["occlusionTexture"]).bytes == odd.bytes);
   CHECK(kept.material(0)["pbrMetallicRoughness"]["baseColorTexture"].raw() == R"({"index":0})");
-  // The spare image comes before one that is used: its bytes stay, its place is taken.
+  // The spare image lies before an image that is used, so its bytes stay. A new image gets its index.
   std::string normal = textured(kBoth);
   normal.replace(normal.size() - 1, 1, R"(,"normalTexture":{"index":2}})");
   const std::string bytes = container_of({shared, odd, mesh}, normal);
@@ -299,7 +300,7 @@ TEST_CASE("Compaction cuts no byte that another view has", "[assets]") {
 }
 
 TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]") {
-  // Both maps become one factor and one map; a texture of another format no longer names one.
+  // Both maps become one factor and one map. The texture no longer has an image of another format.
   const std::string bytes =
       container_of({random_pixels(3, 1), random_pixels(4, 2)},
                    textured(R"("specularGlossinessTexture":{"index":1},"diffuseFactor":[0,0,0,1])") + "," +
@@ -367,7 +368,7 @@ TEST_CASE("Files with unknown extensions are not compacted", "[assets]") {
 
 namespace {
 
-// A container with meshes and images in any order, views that images share, and textures that materials
+// A RandomContainer has meshes and images in any order, views that images share, and textures that materials
 // share.
 class RandomContainer {
  public:
@@ -418,7 +419,7 @@ class RandomContainer {
   std::mt19937 random_;
 };
 
-// The pixels of every texture of the materials, by where their infos stand.
+// Returns the pixels of every texture of the materials, keyed by the place of the texture info.
 std::map<std::string, std::vector<std::byte>> pixels_by_place(const Reread& file) {
   std::map<std::string, std::vector<std::byte>> found;
   const std::vector<SpanValue> materials = file.root()["materials"].children();
@@ -446,7 +447,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
       REQUIRE(after.bytes.size() <= plain.bytes.size());
       REQUIRE(require_others_kept(before.container.json, after.container.json, compact) ==
               require_others_kept(before.container.json, plain.container.json, options));
-      // Views lie in the buffer, which is checked when the file is read again; the mesh stays.
+      // Reading the file again checks that views lie in the buffer. The mesh stays.
       REQUIRE(reread(after.bytes, compact).bytes == after.bytes);
       const auto first_view = [](const Reread& file) {
         return file.bytes.substr(file.container.chunks[0].content_begin(),
@@ -456,7 +457,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
       plain_bytes += plain.bytes.size();
       compact_bytes += after.bytes.size();
     }
-  // Most images lie between others that are used, and to spec-gloss none becomes spare.
+  // Most images lie between other images that are used. Conversions to spec-gloss leave no image unused.
   CHECK(compact_bytes < plain_bytes);
 }
 
@@ -479,7 +480,7 @@ TEST_CASE("A map is baked onto the grid of another", "[assets]") {
   const ImagePixels map = random_pixels(4, 1);
   const TextureTransform same;
   CHECK(baked(map, Transfer::kSrgb, same, {6, 5, same}).bytes == map.bytes);
-  // A shift by two texels of six.
+  // The transform shifts by two texels of six.
   TextureTransform shifted;
   shifted.offset[0] = 2.0 / 6.0;
   const ImagePixels moved = baked(map, Transfer::kSrgb, shifted, {6, 5, same});
@@ -488,21 +489,21 @@ TEST_CASE("A map is baked onto the grid of another", "[assets]") {
       for (std::size_t c = 0; c < 4; ++c)
         CHECK(value_at(moved, y * 6 + x, c) ==
               Approx(value_at(map, y * 6 + (x + 2) % 6, c)).margin(0.51 / 255.0));
-  // A quarter turn of a square, counter-clockwise as seen: the top left shows what was on the right of the
-  // top.
+  // The transform turns a square by a quarter counter-clockwise: the top left shows what was on the right of
+  // the top.
   ImagePixels square{
       2, 2, 1, PixelType::kUint8, {std::byte{10}, std::byte{20}, std::byte{30}, std::byte{40}}};
   TextureTransform turned;
   turned.rotation = std::acos(-1.0) / 2.0;
   const ImagePixels quarter = baked(square, Transfer::kLinear, turned, {2, 2, same});
-  // (u, v) reads (v, 1 - u), after three.js: cos u + sin v, cos v - sin u, repeated.
+  // As in three.js, (u, v) reads (cos u + sin v, cos v - sin u) = (v, 1 - u), repeated.
   CHECK(quarter.bytes == std::vector<std::byte>{std::byte{30}, std::byte{10}, std::byte{40}, std::byte{20}});
-  // The grid's own transform is undone: a map and a grid that are transformed alike agree.
+  // The transform of the grid is undone. If map and grid have the same transform, the map does not change.
   TextureTransform both = turned;
   both.scale[0] = 2.0;
   both.offset[1] = 0.3;
   CHECK(baked(map, Transfer::kSrgb, both, {6, 5, both}).bytes == map.bytes);
-  // Between a black and a white texel lies half of the light.
+  // Halfway between a black and a white texel, the value is half of the light.
   const ImagePixels step{2, 1, 1, PixelType::kUint8, {std::byte{0}, std::byte{255}}};
   TextureTransform half;
   half.offset[0] = 0.25;
@@ -531,14 +532,15 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
   const SpanValue core = after.material(0)["pbrMetallicRoughness"];
   CHECK(core["metallicRoughnessTexture"].raw() == R"({"index":3})");
   const ImagePixels data = after.image(core["metallicRoughnessTexture"]), specgloss = random_pixels(4, 2);
-  // Half of six texels.
+  // The texels are shifted by half of six.
   for (std::size_t i = 0; i < 30; ++i)
     CHECK(value_at(data, i, 1) ==
           Approx(1.0f - value_at(specgloss, i / 6 * 6 + (i + 3) % 6, 3)).margin(1.01 / 255.0));
 }
 
 TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", "[assets]") {
-  // The diffuse lies twice along each side, the other one once: its right half is gold.
+  // The diffuse map repeats twice along each side, the other map once. The right half of the other map is
+  // gold.
   const ImagePixels gold{2,
                          1,
                          4,
@@ -572,7 +574,7 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
   CHECK(value_at(data, right, 2) > 0.9f);
   CHECK(value_at(base, right, 0) > 0.97f);
   CHECK(value_at(base, right, 2) < 0.75f);
-  // Two scales of which neither is a multiple of the other fit no image, unless one covers all.
+  // If neither scale is a multiple of the other, no image fits, unless one texture covers everything.
   const auto outcome = [&](const std::string& first, const std::string& second) {
     const auto transform = [](const std::string& value) {
       return R"("extensions":{"KHR_texture_transform":{"scale":[)" + value + "]}}}";
@@ -621,7 +623,7 @@ TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
 
 namespace {
 
-// Images that begin as JPEG files do are the pixels that follow.
+// A JpegCodec reads images that begin like JPEG files as the pixels after that beginning.
 class JpegCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {

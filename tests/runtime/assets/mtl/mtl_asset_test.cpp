@@ -1,4 +1,4 @@
-// MTL files as they are edited: which lines, by which formula, and what stays byte for byte.
+// This file tests how MTL files are edited: which lines, by which formula, and what stays byte for byte.
 #include <cmath>
 #include <random>
 
@@ -24,11 +24,12 @@ double number_in(const AssetConversion& conversion, const std::string& word) {
   return parse_number(value_of(conversion, word)).value_or(-1.0);
 }
 
-// Every byte outside of touched spans is in the new text, in order; what comes in between was added.
+// Checks that every byte outside of touched spans is in the new text, in the same order. Everything between
+// was added.
 void require_kept(const std::string& before, const AssetConversion& conversion) {
   std::size_t at = 0, from = 0;
   const auto require_next = [&](const std::string& part) {
-    // Added lines stand between the bytes that stay, so each line is looked for on its own.
+    // Added lines lie between bytes that stay, so each line is searched separately.
     for (std::size_t begin = 0; begin < part.size();) {
       const std::size_t end = std::min(part.find('\n', begin), part.size() - 1) + 1;
       const std::string line = part.substr(begin, end - begin);
@@ -48,7 +49,7 @@ void require_kept(const std::string& before, const AssetConversion& conversion) 
 }  // namespace
 
 TEST_CASE("Blinn's exponent and strength become roughness and F0", "[assets]") {
-  // Constants that separate code found under other lights: (1.7 / (n + 4))^.25, 6.3 Ks / (n + 2).
+  // The constants (1.7 / (n + 4))^.25 and 6.3 Ks / (n + 2) were found by separate code under other lights.
   const GgxLobe lobe = ggx_lobe(grey(0.64, 0.5, 96.078431));
   CHECK(lobe.roughness == Approx(0.361016547).epsilon(0.04));
   CHECK(lobe.f0[0] == Approx(0.0321171533).epsilon(0.08));
@@ -58,7 +59,8 @@ TEST_CASE("Blinn's exponent and strength become roughness and F0", "[assets]") {
 }
 
 TEST_CASE("Core keeps the sum of diffuse and specular", "[assets]") {
-  // Where base color is not clamped: base (1 - metallic) + metallic base + .04 (1 - metallic) is the sum.
+  // If base color is not clamped, base (1 - metallic) + metallic base + .04 (1 - metallic) is the sum of
+  // diffuse and specular.
   for (const double diffuse : {0.0, 0.05, 0.3, 0.7})
     for (const double specular : {0.01, 0.2, 0.6})
       for (const double exponent : {5.0, 50.0, 500.0}) {
@@ -151,7 +153,7 @@ TEST_CASE("Channels of Kd that do not change keep their text, one number becomes
   const AssetConversion one = converted_mtl("newmtl a\nKd 0.5 # grey\nKs 1 .5 .5\nNs 20\n");
   CHECK(value_of(one, "Kd").ends_with(" # grey"));
   CHECK(one.text.find("Kd 0.5 #") == std::string::npos);
-  // Where the form gives F0 .04, base color is the diffuse.
+  // If the form gives F0 .04, base color is the diffuse color.
   double ks = 0.5;
   for (int i = 0; i < 20; ++i) ks *= 0.04 / ggx_lobe(grey(0.5, ks, 98.0)).f0[0];
   const std::string text = number_text(ks);
@@ -171,14 +173,14 @@ TEST_CASE("A material that fails stays, others go on", "[assets]") {
 TEST_CASE("A map of diffuse stays where base color is the map", "[assets]") {
   PlainResources resources;
   resources.files["wood.png"] = map_bytes({{110, 120, 130}, {200, 100, 90}});
-  // F0 of .04: base = diffuse, unless that is darker.
+  // At an F0 of .04, base color equals diffuse, so the map stays.
   const AssetConversion kept =
       converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 155.5\nmap_Kd wood.png\n", &resources);
   CHECK(kept.materials[0].failure.empty());
   CHECK(kept.files.empty());
   CHECK(kept.text.find("map_Kd wood.png\nPr ") != std::string::npos);
   CHECK(kept.touched.empty());
-  // No highlight: the map is not even read.
+  // The material has no highlight, so the map is not even read.
   CHECK(converted_mtl("newmtl a\nmap_Kd missing.png\n", &resources).files.empty());
 }
 
@@ -196,7 +198,7 @@ TEST_CASE("Maps are converted texel by texel, as factors are", "[assets]") {
       "map_Ks -s 2 2 t/shine.png\nmap_Ns -s 2 2 t/n.png\n";
   const AssetConversion conversion = converted_mtl(text, &resources);
   REQUIRE(conversion.materials[0].failure.empty());
-  REQUIRE(conversion.files.size() == 3);  // shared by both
+  REQUIRE(conversion.files.size() == 3);  // both materials share the new images
   CHECK(conversion.files[0].path == "t/wood_baseColor.png");
   CHECK(conversion.files[1].path == "t/shine_roughness.png");
   CHECK(conversion.files[2].path == "t/shine_metallic.png");
@@ -204,7 +206,7 @@ TEST_CASE("Maps are converted texel by texel, as factors are", "[assets]") {
   CHECK(value_of(conversion, "map_Kd") == "-s 2 2 t/wood_baseColor.png");
   CHECK(value_of(conversion, "map_Pr") == "-s 2 2 t/shine_roughness.png");
   CHECK(value_of(conversion, "Pm") == "1");
-  CHECK(conversion.materials[0].warnings.size() == 1);  // how map_Ns is read
+  CHECK(conversion.materials[0].warnings.size() == 1);  // the warning says how map_Ns is read
   const auto pixels = [&](std::size_t file) { return PlainCodec().decode(conversion.files[file].bytes, ""); };
   const ImagePixels base = pixels(0), roughness = pixels(1), metallic = pixels(2);
   const auto stored = [](const ImagePixels& image, std::size_t texel, std::size_t channel) {
@@ -249,11 +251,11 @@ TEST_CASE("-mm moves the values of a map before it is converted", "[assets]") {
   for (std::size_t i = 0; i < moved.files.size(); ++i) CHECK(moved.files[i].bytes == baked.files[i].bytes);
   CHECK(value_of(moved, "map_Kd") == "-s 2 2 d_baseColor.png -blendu on");
   CHECK(value_of(moved, "map_Pr").starts_with("-s 2 2 "));
-  // Materials that differ in it share nothing, wherever it stands.
+  // Materials whose -mm differ share nothing, wherever -mm stands in the line.
   const std::string other = numbers + "map_Ns n.png -mm 0 .5\n";
   const AssetConversion both = converted_mtl(numbers + "map_Ns n.png -mm .2 .5\n" + other, &resources);
   CHECK(both.files.size() == 2 * converted_mtl(other, &resources).files.size());
-  // The line stays where the map does.
+  // If the map stays, its line does not change.
   const AssetConversion kept =
       converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 155.5\nmap_Kd -mm .5 .25 d.png\n", &resources);
   CHECK(value_of(kept, "map_Kd") == "-mm .5 .25 d.png");
@@ -287,7 +289,7 @@ TEST_CASE("Maps that cannot be converted fail with a reason", "[assets]") {
   AssetOptions enlarging;
   enlarging.enlarges = true;
   CHECK(failure("map_Kd d.png\nmap_Ks s.png\n", enlarging).empty());
-  CHECK(failure("map_Kd gone.png\n") == "gone.png: is not there (put it beside the MTL file)");
+  CHECK(failure("map_Kd gone.png\n") == "gone.png: was not found (put it next to the MTL file)");
   CHECK(failure("map_Kd x.png\n") == "x.png: is no image");
   CHECK(failure("map_Kd -t .1 d.png\n") == "d.png: has -t, which is not applied (bake it into the image)");
   CHECK(failure("map_Kd -cc on d.png\n") ==
@@ -310,7 +312,7 @@ TEST_CASE("Names that lead out of the folder are looked for beside the file", "[
     CHECK(conversion.resources[0].path == "d.png");
   }
   CHECK(converted_mtl("newmtl a\nKd 1 1 1\nmap_Kd /etc/..\n", &resources).resources.empty());
-  // What the resources may read above the folder is read there.
+  // The resources may allow files above the folder, which are then read there.
   resources.files["../up/e.png"] = map_bytes({{10, 20, 30}, {200, 100, 90}});
   const AssetConversion above =
       converted_mtl("newmtl a\nKd 1 1 1\nKs 1 1 1\nNs 20\nmap_Kd ..\\up\\e.png\n", &resources);
@@ -332,7 +334,7 @@ TEST_CASE("Names of files become neither options nor statements", "[assets]") {
                   "b\xff.png")
             .files.at(0)
             .path == "a__b\xff_baseColor.png");
-  // Where several assets name one image, the name of the asset is the prefix.
+  // If several assets use one image, the name of the asset is the prefix.
   resources.prefix = "\\a -s 2 2\nnewmtl b\nKd 1 0 0\n#_";
   const AssetConversion prefixed = converted("wood.png");
   CHECK(prefixed.files.at(0).path == "_a _s 2 2_newmtl b_Kd 1 0 0_#_wood_baseColor.png");
@@ -349,7 +351,7 @@ TEST_CASE("Random texts: all but converted lines stays byte for byte, and a seco
     std::string text = pick({"", "\xef\xbb\xbf", "# head" + ending, ending, "Kd 9 9 9" + ending});
     int number = 0;
     for (std::size_t count = random() % 30; count > 0; --count) {
-      // Each line is the only one of its text, so that it can be looked for.
+      // Each line must be unique in its text, so that it can be searched.
       const std::string mark = " #" + std::to_string(number++);
       text += pick({"", " ", "\t", "  "}) +
               pick({"newmtl a b" + mark,

@@ -1,4 +1,4 @@
-// MTL texts as places: statements, materials, names of maps.
+// This file tests how MTL texts are split into places: statements, materials, names of maps.
 #include "assets/document/mtl_document.hpp"
 
 #include <random>
@@ -64,7 +64,7 @@ TEST_CASE("Spans of statements cover every byte that is no comment and no blank 
       REQUIRE(statement.word.end <= statement.arguments.begin);
       REQUIRE(statement.arguments.end <= statement.line.end);
       REQUIRE(statement.line.end == statement.ending.begin);
-      // What is left out is white space or begins with a comment.
+      // Skipped text must be white space or a comment.
       for (const char c : text.substr(at, statement.line.begin - at)) {
         if (c == '#') break;
         REQUIRE(std::string(" \t\r\n\\").find(c) != std::string::npos);
@@ -75,7 +75,7 @@ TEST_CASE("Spans of statements cover every byte that is no comment and no blank 
 }
 
 TEST_CASE("Names of maps are found between options", "[assets]") {
-  // From the tests of tinyobjloader and from files in use.
+  // These lines are from the tests of tinyobjloader and from real files.
   CHECK(map_of("map_Kd -colorspace sRGB -o 0.1 diffuse.jpg").file == "diffuse.jpg");
   CHECK(map_of("map_Kd -colorspace sRGB -o 0.1 diffuse.jpg").offset[0] == 0.1);
   CHECK(map_of("map_Ks -s 0.1 0.2 specular.jpg").scale == std::array{0.1, 0.2});

@@ -1,5 +1,5 @@
-// MTL files of programs that give statements another meaning than the text of the format does, after public
-// bug reports.
+// This file tests MTL files of programs that give statements another meaning than the specification, from
+// public bug reports.
 #include <catch2/catch.hpp>
 
 #include "assets/maps/legacy_material.hpp"
@@ -10,7 +10,7 @@ using namespace remap;
 
 namespace {
 
-// A scene of one triangle for each material of an MTL text, as glTF.
+// A Scene has one triangle for each material of an MTL text, converted to glTF.
 struct Scene {
   AssetConversion conversion;
   std::unique_ptr<SpannedJson> json;
@@ -63,7 +63,7 @@ AssetOptions with(bool extensions, std::optional<MtlMaker> maker = std::nullopt)
 const std::string kBlender = "# Blender 4.1.1 MTL File: 'a.blend'\n# www.blender.org\n\n",
                   kBlender28 = "# Blender MTL File: 'a.blend'\n# Material Count: 1\n\n";
 
-// A surface that is bumpy along both directions, as unit normals.
+// Returns a surface that is bumpy in both directions, as unit normals.
 std::string normal_map() {
   return map_bytes({{128, 128, 255}, {150, 110, 250}, {100, 140, 251}, {140, 160, 248}}, 4);
 }
@@ -94,7 +94,7 @@ TEST_CASE("reports: 01 numbers of Blender's exporter go back exactly", "[assets]
   CHECK(value_of(lines, "Pr") == "0.5");
   CHECK(value_of(lines, "map_Kd") == "t.png");
   CHECK(lines.files.empty());
-  // Asked for, the text of the format counts.
+  // If the user asks for it, the specification is used.
   const Scene by_text = scene_of(mtl, resources, with(false, MtlMaker::kText));
   CHECK(by_text.number("roughnessFactor", 0) < 0.3);
   CHECK(by_text.number("metallicFactor", 1) == 0.0);
@@ -111,7 +111,7 @@ TEST_CASE("reports: 01 each version of Blender has its scale", "[assets]") {
   CHECK(roughness("# Blender 3.2.0 MTL File: 'None'\n", "225.000000") == Approx(0.5));
   CHECK(roughness(kBlender28, "225.000000") == Approx(0.5));
   CHECK(roughness(kBlender28, "323.999994") == Approx(0.4));
-  // Blender 2.7 writes its hardness, which the text of the format describes.
+  // Blender 2.7 writes its hardness, which follows the specification.
   CHECK(roughness(kBlender28, "96.078431") == Approx(ggx_lobe({{}, {.5, .5, .5}, 96.078431}).roughness));
   CHECK(roughness(kBlender, "0") == 1.0);
   CHECK(roughness(kBlender, "1000") == 0.0);
@@ -143,7 +143,7 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
   CHECK(level(".1 .1 .1", false).warnings().find("specular level") != std::string::npos);
   CHECK(level("0 0 0", false).number("roughnessFactor") == 1.0);
   CHECK(level("0 0 0", true).number("roughnessFactor") == Approx(0.5));
-  // A map of roughness counts without the number beside it.
+  // If there is a map of roughness, the number is not used.
   CHECK(scene_of(kBlender + "newmtl a\nKs .1 .1 .1\nillum 2\nPr .5\nmap_Pr r.png\n", resources, with(true))
             .number("roughnessFactor") == 1.0);
 }
@@ -175,9 +175,9 @@ TEST_CASE("reports: 03 a bump map that holds normals is a normal map", "[assets]
   for (const std::string name : {"h.png", "grey.png"}) {
     const Scene heights = scene_of(start + "map_Bump " + name + "\n", resources);
     CHECK_FALSE(heights.material()["normalTexture"]);
-    CHECK(heights.warnings().find("map of heights") != std::string::npos);
+    CHECK(heights.warnings().find("holds heights") != std::string::npos);
   }
-  // A statement for normals counts before.
+  // A statement for normals is preferred.
   const Scene both = scene_of(start + "map_Bump h.png\nnorm n.png\n", resources);
   CHECK(both.material()["normalTexture"]);
 }
@@ -222,7 +222,7 @@ TEST_CASE("reports: 15 bsdf pbr packs roughness and metallic into Ks", "[assets]
   CHECK(value_of(lines, "map_Pr") == "-imfchan g ks.png");
   CHECK(value_of(lines, "map_Pm") == "-imfchan b ks.png");
   CHECK_FALSE(converted_mtl(lines.text, &resources).changed);
-  // Numbers are packed alike, and other materials of the file are as the text has them.
+  // Numbers have the same packing as maps. Other materials of the file follow the specification.
   const Scene numbers = scene_of("newmtl a\nbsdf pbr\nKd .2 .2 .2\nKs 0 .3 1\nnewmtl b\nKd .2 .2 .2\n");
   CHECK(numbers.number("roughnessFactor") == Approx(0.3));
   CHECK(numbers.number("metallicFactor") == 1.0);
@@ -234,7 +234,7 @@ TEST_CASE("reports: a black Kd beside a map is not used", "[assets]") {
   resources.files["c.png"] = map_bytes({{10, 20, 30}, {200, 100, 50}});
   const Scene scene = scene_of("newmtl a\nKd 0 0 0\nmap_Kd c.png\n", resources);
   CHECK(scene.base() == std::vector<double>{1, 1, 1});
-  CHECK(scene.warnings() == "Kd is 0 beside map_Kd, and counts as 1\n");
+  CHECK(scene.warnings() == "Kd is 0, which would make map_Kd black: 1 is used instead\n");
   CHECK(scene_of("newmtl a\nKd 0 0 0\n").base() == std::vector<double>{0, 0, 0});
 }
 

@@ -1,4 +1,4 @@
-// OBJ files as glTF: geometry, materials, images, and damaged files.
+// This file tests OBJ files as glTF: geometry, materials, images, and damaged files.
 #include "assets/obj/obj_gltf.hpp"
 
 #include <cstring>
@@ -122,7 +122,8 @@ TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of f
 }
 
 TEST_CASE("A group that is read in parts is one shape", "[assets]") {
-  // More faces than the importer gets at once; vertices that follow the first polygons; a material between.
+  // There are more faces than the importer gets at once, vertices after the first polygons, and a change of
+  // material.
   constexpr int kFaces = 40000;
   std::string text = "g a b\nusemtl x\nf 1 2 3 4\n";
   for (int i = 0; i < kFaces; ++i) text += "f 1 2 3\n";
@@ -193,7 +194,7 @@ TEST_CASE("d is opacity, whatever Tr says and in which order", "[assets]") {
   CHECK(alpha("d 0.75\nTr 0.5\n") == 0.75);
   CHECK(alpha("Tr 0.5\nd 0.75\n") == 0.75);
   CHECK(alpha("Tr 0.25\n") == 0.75);
-  CHECK(alpha("Tr 1\n") == 1.0);  // MeshLab
+  CHECK(alpha("Tr 1\n") == 1.0);  // MeshLab writes this for opaque materials
   CHECK(alpha("Tr 1\nnewmtl b\nTr 0\n") == 0.0);
   CHECK(alpha("d 0\n") == 0.0);
 }
@@ -224,7 +225,7 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   CHECK(transform["scale"].raw() == "[2.0,3.0]");
   CHECK(transform["offset"].raw() == "[0.5,-2.0]");
   CHECK(scene.entry("materials", 0)["normalTexture"]["scale"].raw() == "0.5");
-  // A .gltf names the files.
+  // A .gltf refers to the files.
   resources.files["a.mtl"] = mtl;
   const AssetConversion beside =
       gltf_of_obj(MemorySource(obj), "file.obj", {}, resources, {false, "my mesh"});
@@ -274,7 +275,7 @@ TEST_CASE("A map of opacity becomes the alpha of base color", "[assets]") {
   CHECK(image("map_Kd d.tga\nmap_d o.tga\n") == std::vector<int>{1, 2, 3, 0, 4, 5, 6, 200});
   CHECK(image("map_d o.tga\n") == std::vector<int>{255, 255, 255, 0, 255, 255, 255, 200});
   CHECK(image("map_Kd leaf.tga\nmap_d leaf.tga\n") == std::vector<int>{1, 2, 3, 0, 4, 5, 6, 100});
-  // The alpha of map_Kd is no opacity.
+  // The alpha of map_Kd is not opacity.
   CHECK(image("d .5\nmap_Kd leaf.tga\n") == std::vector<int>{1, 2, 3, 4, 5, 6});
 }
 
@@ -300,11 +301,11 @@ TEST_CASE("Maps of strength and exponent are converted, and shared", "[assets]")
 TEST_CASE("What is missing is said, and the rest is there", "[assets]") {
   const MadeScene none = made("mtllib gone.mtl\n" + kTriangle + "usemtl x\nf 1 2 3\n");
   CHECK(none.conversion.warnings ==
-        std::vector<std::string>{"mtllib gone.mtl: is not there; its materials count as white"});
+        std::vector<std::string>{"mtllib gone.mtl: was not found; its materials become white"});
   CHECK(none.core()["metallicFactor"].raw() == "0");
   const MadeScene texture = of_material("Kd .5 .5 .5\nmap_Kd gone.png\n");
   CHECK(texture.conversion.materials[0].state == MaterialState::kFailed);
-  CHECK(texture.conversion.materials[0].failure == "gone.png: is not there (put it beside the MTL file)");
+  CHECK(texture.conversion.materials[0].failure == "gone.png: was not found (put it next to the MTL file)");
   CHECK(texture.conversion.changed);
   CHECK(texture.core()["baseColorFactor"].raw() == "[0.5,0.5,0.5,1.0]");
   PlainResources resources;
@@ -382,7 +383,7 @@ TEST_CASE("Public OBJ files: every triangle arrives, and accessors lie in their 
     if (entry.path().extension() != ".obj") continue;
     ++count;
     const std::string text = read_file(entry.path());
-    // A polygon of n corners is n - 2 triangles.
+    // A polygon of n corners becomes n - 2 triangles.
     std::size_t expected = 0, triangles = 0;
     for (const std::string& line : lines_in(text)) {
       std::istringstream words(line);

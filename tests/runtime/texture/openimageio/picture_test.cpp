@@ -1,4 +1,4 @@
-// Whole pictures, written and read back.
+// This file tests whole pictures that are written and read back.
 #include <map>
 
 #include <catch2/catch.hpp>
