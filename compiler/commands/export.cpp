@@ -47,7 +47,8 @@ void add_export_command(Command& app) {
   options.table.add_options(*command);
   command->option_group("Output");
   command
-      ->add_option("-o,--output FILE", options.output, "CSV table to write; FILE.json tells how it was made")
+      ->add_option("-o,--output FILE", options.output,
+                   "CSV table to write; FILE.json records how it was made")
       ->required();
   add_force_flag(*command, options.force);
   command->footer("Example:\n  remapc export fits/tables/mitsuba_ward_to_mitsuba_as.csv -o plain.csv");

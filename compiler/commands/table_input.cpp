@@ -20,8 +20,8 @@ void TableInput::add_options(Command& app, bool is_required) {
   app.add_option(
       "--columns MAP", columns, columns_reader(),
       "Names of columns in the file, OWN=FILE,...; sztrajman-2019, the published table, is recognised");
-  app.add_option("--source,--from MODEL", source, "Source model (default: as the table names it)");
-  app.add_option("--target,--to MODEL", target, "Target model (default: as the table names it)");
+  app.add_option("--source,--from MODEL", source, "Source model (default: from the table)");
+  app.add_option("--target,--to MODEL", target, "Target model (default: from the table)");
 }
 
 Table TableInput::read(std::string* bytes) const {

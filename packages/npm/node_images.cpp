@@ -134,7 +134,7 @@ std::string refusal_of(std::string_view bytes) {
   if (bytes.starts_with("DDS ")) return elsewhere("DDS");
   if (bytes.starts_with("\xabKTX")) return "is KTX2, which is not read (convert it to PNG)";
   if (part_of(bytes, 4, 8) == "ftypavif") return "is AVIF, which is not read (convert it to PNG)";
-  return "is no image of a known format (PNG, JPEG, WebP and TIFF are read)";
+  return "is not an image of a known format (PNG, JPEG, WebP, TIFF)";
 }
 
 // Limits files, because they are held whole in memory, of which WebAssembly has 2 GB.
@@ -494,7 +494,7 @@ class NodeImages final : public ImageLibrary {
 
  private:
   [[noreturn]] static void refuse(const std::filesystem::path& path) {
-    throw input_error(path.string() + ": whole pictures are read and written by remapc alone");
+    throw input_error(path.string() + ": only remapc reads and writes whole pictures");
   }
   NodeCodec codec_;
 };

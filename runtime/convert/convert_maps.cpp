@@ -347,8 +347,8 @@ void Conversion::require_grey(Parameter parameter, const Segment& segment, Scrat
     throw Error(ErrorKind::kInput,
                 source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
                     std::to_string(maps_.first_row + segment.y) + ") is not grey: " + name(0) + " is " +
-                    number_text(static_cast<double>(first[i])) + " and " + name(c) + " is " +
-                    number_text(static_cast<double>(scratch.other[i])) + " (choose one channel" +
+                    number_text(rounded(static_cast<double>(first[i]), 4)) + " and " + name(c) + " is " +
+                    number_text(rounded(static_cast<double>(scratch.other[i]), 4)) + " (choose one channel" +
                     (source.one_channel.empty() ? "" : ": " + source.one_channel) + ")");
   }
 }

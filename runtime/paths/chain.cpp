@@ -14,8 +14,8 @@ void require_joined(const std::vector<const Converter*>& steps) {
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const ConverterInfo &before = steps[i]->info(), &after = steps[i + 1]->info();
     if (before.target == after.source) continue;
-    throw Error(ErrorKind::kInput, before.id + " then " + after.id + ": the first gives " +
-                                       side_text(before.target) + "; the second takes " +
+    throw Error(ErrorKind::kInput, before.id + " then " + after.id + ": the first converts to " +
+                                       side_text(before.target) + ", but the second converts from " +
                                        side_text(after.source));
   }
 }

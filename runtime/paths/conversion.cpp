@@ -40,7 +40,7 @@ void require_known(const std::string& word, const std::string& name, const Conve
   for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
   const std::string near = joined(nearest_names(name, known, kNamesShown), ", ");
   throw usage_error(word + ": unknown model '" + name + "' (" +
-                    (near.empty() ? "" : "nearest: " + near + "; ") + "all: " + all_names + ")");
+                    (near.empty() ? "" : "closest: " + near + "; ") + "all: " + all_names + ")");
 }
 
 NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, const std::string& word,
@@ -225,7 +225,8 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
   choice.changes_nothing = choice.source_brdf == choice.target_brdf && request.via.empty() &&
                            is_same_material(*choice.source, *choice.target);
   if (choice.changes_nothing)
-    choice.notes.push_back("both ends are one material: files and encodings change, no value does");
+    choice.notes.push_back(
+        "source and target have the same material model: files and encodings change, but no value does");
   return choice;
 }
 

@@ -36,7 +36,7 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   for (const std::string& model : known)
     if (!name.empty() && renderer_of(model) == name) of_renderer.push_back(model);
   if (!of_renderer.empty())
-    throw Error(ErrorKind::kUsage, role + ": " + name + " is a renderer (choose one of its models: " +
+    throw Error(ErrorKind::kUsage, name + ": is a renderer, not a model (choose one of its models: " +
                                        joined(of_renderer, ", ") + ")");
   throw Error(ErrorKind::kUsage, "unknown " + role + " '" + name + "'" + suggestion(name, known));
 }

@@ -56,7 +56,7 @@ ConverterList make_shipped(InstructionSet set) {
 ConverterList read_converters(const fs::path& path, InstructionSet set) {
   if (!fs::exists(path))
     throw Error(ErrorKind::kInput, path.string() +
-                                       ": does not exist (name a file of converters, a fit or a folder "
+                                       ": does not exist (give a file of converters, a fit or a folder "
                                        "of fits)");
   std::vector<ConverterData> data = read_data(path);
   if (data.empty())

@@ -141,7 +141,7 @@ void judge(FoundSet& set) {
   std::string squared;
   for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
     squared = " (" + display_path(set.maps[use.map].path.filename()) +
-              " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
+              " contains squared glossiness, which texremap does not convert; export glossiness instead)";
   set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
 }
 

@@ -136,7 +136,7 @@ void require_entries(const CopiedNodes& entries, std::size_t count, const std::s
   for (const WarpTexel& texel : entries.palette)
     for (const float value : texel)
       require(std::isfinite(value) && value >= 0.0f, context,
-              "the palette holds an invalid value (all must be finite and 0 or more)");
+              "the palette contains an invalid value (all must be finite and 0 or more)");
   for (const std::uint16_t index : entries.indices)
     require(index < entries.palette.size(), context, "an index is beyond the end of the palette");
 }

@@ -39,7 +39,7 @@ template <typename Number>
 std::vector<Number> read_numbers(const Field& field) {
   const std::vector<std::uint8_t> bytes = read_base64(field);
   field.require(bytes.size() % sizeof(Number) == 0,
-                "base64 of whole numbers of " + std::to_string(sizeof(Number)) + " bytes");
+                "base64 of integers of " + std::to_string(sizeof(Number)) + " bytes");
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
   for (std::size_t i = 0; i < bytes.size(); ++i)
     numbers[i / sizeof(Number)] = static_cast<Number>(
@@ -57,7 +57,7 @@ std::string palette_text(const std::vector<WarpTexel>& palette) {
 
 std::vector<WarpTexel> read_palette(const Field& field) {
   const auto values = read_numbers<std::uint32_t>(field);
-  field.require(values.size() % kWarpParameters == 0, "base64 of seven floats a texel");
+  field.require(values.size() % kWarpParameters == 0, "base64 of seven floats per texel");
   std::vector<WarpTexel> palette(values.size() / kWarpParameters);
   for (std::size_t i = 0; i < values.size(); ++i)
     palette[i / kWarpParameters][i % kWarpParameters] = __builtin_bit_cast(float, values[i]);
@@ -177,7 +177,7 @@ WarpMapFit read_warp_fit(const Field& root) {
   require_valid(fit.warp, root.context());
   fit.copy_rms_error = root["copy_rms_error"].number();
   root["copy_rms_error"].require(fit.copy_rms_error >= 0.0 || fit.copy_rms_error == -1.0,
-                                 "a share from 0, or -1 where it is not known");
+                                 "a fraction from 0, or -1 if it is unknown");
   fit.method = root["method"].text_dictionary();
   fit.remarks = root["remarks"].texts();
   fit.tool_version = read_tool_version(root["tool"]);

@@ -14,7 +14,7 @@ void require_width(RoughnessEncoding width, const std::string& context) {
   if (width == RoughnessEncoding::kRoughness || width == RoughnessEncoding::kGlossiness ||
       width == RoughnessEncoding::kAlpha)
     return;
-  throw Error(ErrorKind::kInput, context + ": a workflow cannot hold its roughness as " +
+  throw Error(ErrorKind::kInput, context + ": a workflow cannot store its roughness as " +
                                      std::string(encoding_name(width)) +
                                      " (choose roughness, glossiness or alpha)");
 }

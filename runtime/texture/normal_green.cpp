@@ -36,7 +36,9 @@ std::size_t green_channel(const ImageReader& image) {
   const auto named = std::ranges::find(channels, "G", &Channel::name);
   if (named != channels.end()) return static_cast<std::size_t>(named - channels.begin());
   if (channels.size() < 3)
-    throw Error(ErrorKind::kInput, image.path().string() + ": has no green channel to turn");
+    throw Error(
+        ErrorKind::kInput,
+        image.path().string() + ": has no green channel to invert (give a normal map with three channels)");
   return 1;
 }
 

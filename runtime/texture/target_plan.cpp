@@ -244,7 +244,8 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
     return;
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
-    throw Error(ErrorKind::kInput, source.string() + ": cannot be copied: not a readable file");
+    throw Error(ErrorKind::kInput,
+                source.string() + ": cannot be copied, because it is not a readable file (check the path)");
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
@@ -299,7 +300,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   for (const Parameter parameter : choice.parameters) {
     if (set.map_of(parameter) != nullptr) continue;
     if (set.parameters.count(parameter) == 0 && !is_input(parameter))
-      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input holds " +
+      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input contains " +
                                          std::string(parameter_name(parameter)) + " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
@@ -424,10 +425,11 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
       for (const TargetChannel& channel : part.channels)
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
-          throw usage_error(map.path.string() +
-                            ": would hold whole numbers, and its roughness is an exponent "
-                            "(--exponent-of-white says which exponent white is: 1000 in MTL files, 128 in "
-                            "OpenGL, 100 for percent; or --format exr)");
+          throw usage_error(
+              map.path.string() +
+              ": would contain integers, but its roughness is an exponent "
+              "(--exponent-of-white sets the exponent that white means: 1000 in MTL files, 128 in "
+              "OpenGL, 100 for percent; or --format exr)");
     }
 }
 

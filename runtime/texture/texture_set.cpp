@@ -152,7 +152,8 @@ void require_same_texels(const ImageReader& first, const ImageReader& other) {
   const ImageLayout &a = first.layout(), &b = other.layout();
   if (a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y) return;
   throw Error(ErrorKind::kInput, other.path().string() + ": size " + window_text(b) + " does not match " +
-                                     first.path().string() + " (" + window_text(a) + "); use --resample");
+                                     first.path().string() + " (" + window_text(a) +
+                                     ") (use --resample, or scale one of the images)");
 }
 
 // Returns the parameters that are maps.
@@ -385,10 +386,9 @@ void require_scale(const TextureSet& set, RoughnessEncoding width) {
   if (width != RoughnessEncoding::kExponent || map == nullptr || !map->factors.empty()) return;
   const ChannelPlace place = map->channels.front();
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
-    throw input_error(
-        set.maps[place.map].path().string() +
-        ": holds whole numbers, and an exponent is wanted (--factor roughness=NUMBER says which exponent "
-        "white is: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
+    throw input_error(set.maps[place.map].path().string() +
+                      ": contains integers, but must contain exponents (--factor roughness=NUMBER sets the "
+                      "exponent of white: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
 }
 
 std::vector<std::string> remarks(const TextureSet& set) {

@@ -54,7 +54,7 @@ TEST_CASE("A dry run tells what each material would become", "[assets]") {
   CHECK(run.exit_code == 0);
   CHECK(run.errors.find("material 0 \"paint\": would become base color 1 1 1, metallic 1, roughness 0") !=
         std::string::npos);
-  CHECK(run.errors.find("names a b.bin, which is not there") != std::string::npos);
+  CHECK(run.errors.find("refers to a b.bin, which was not found") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(session.path("out")));
   const Json json = parse_json(run.output, "output");
   CHECK(*json.find("state")->text() == "planned");

@@ -142,7 +142,7 @@ TEST_CASE(
   CHECK_THAT(
       down.errors,
       Contains("wood_Normal_OpenGL.png: green is inverted in the copy wood_Normal_DirectX.png, because "
-               "the name says OpenGL (green up), and unreal reads DirectX (green down)") &&
+               "its name means OpenGL (green up), but unreal reads DirectX (green down)") &&
           Contains("tin_Normal.png: green is kept, because neither the name nor --from says"));
   CHECK_FALSE(fs::exists(session.path("unreal/wood_Normal_OpenGL.png")));
   const TestImage before = session.image("in/wood_Normal_OpenGL.png"),

@@ -49,7 +49,7 @@ TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports][slow]") {
         sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf --metallic 0 -o out"));
     CHECK(sets.texel(packed) == std::vector{180, 200, 0});
   }
-  SECTION("beside arm, which holds more of the material") {
+  SECTION("beside arm, which contains more of the material") {
     sets.plain("in/textures/old_bench_arm_1k.png", {190, 210, 255});
     const ProcessResult result =
         require_success(sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf -o out"));
@@ -93,7 +93,7 @@ TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
   sets.plain("in/king_shared_metallic.png", {255});
   const ProcessResult result = require_success(sets.texremap(
       "convert in --from metallic --to gltf --layout gltf --metallic in/king_shared_metallic.png -o out"));
-  CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for every set"));
+  CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for all sets"));
   for (const std::string name : {"black", "white"})
     CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
   // A name without * is also searched in the folder of each set's maps.

@@ -287,7 +287,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
 
   const std::string whole = command + "--to mtl --format png --type uint16 ";
   CHECK_THAT(session.texremap(whole + "-o none").last_error(),
-             Contains("would hold whole numbers, and its roughness is an exponent"));
+             Contains("would contain integers, but its roughness is an exponent"));
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
   REQUIRE(session.texremap(whole + "--exponent-of-white 1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
@@ -319,7 +319,7 @@ TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a s
   const std::string command =
       "convert --from opengl --to mitsuba/ggx-plain --roughness ns.png --specular 0.5 -o out";
   CHECK_THAT(session.texremap(command).last_error(),
-             Contains("holds whole numbers, and an exponent is wanted"));
+             Contains("contains integers, but must contain exponents"));
   CHECK(session.texremap(command + " --factor roughness=128").exit_code == 0);
 }
 

@@ -77,5 +77,5 @@ expect 0 "1 part: 1 asset converted, 0 failed" merge-reports parts_out
 expect 1 "is built without a library of images" convert --from mitsuba/ward --to mitsuba/ggx --roughness a_roughness.png \
   --specular 0.04 -o maps
 expect 1 "nowhere.gltf: cannot be read: No such file or directory" convert nowhere.gltf --to gltf -o out
-expect 2 "unknown model 'mitsuba/wrd' (nearest: mitsuba/ward" path --from mitsuba/wrd --to mitsuba/ggx
+expect 2 "unknown model 'mitsuba/wrd' (closest: mitsuba/ward" path --from mitsuba/wrd --to mitsuba/ggx
 echo "$cases runs are as expected"

@@ -166,7 +166,7 @@ test('names: models, aliases, renderers, paths', () => {
   assert.ok(found.pictureDifference > 1 && found.pictureDifference < 20);
   assert.equal(path('gltf', 'metallic').expectedError, 0);
   assert.equal(path('gltf', 'metallic').pictureDifference, 0);
-  assert.throws(() => path('mitsuba/wrd', 'mitsuba/ggx'), /source: unknown model 'mitsuba\/wrd' \(nearest: mitsuba\/ward/);
+  assert.throws(() => path('mitsuba/wrd', 'mitsuba/ggx'), /source: unknown model 'mitsuba\/wrd' \(closest: mitsuba\/ward/);
 });
 
 test('a fit of one\'s own', () => {

@@ -33,7 +33,7 @@ Buffer::Buffer(nanobind::handle object, Access access, const std::string& name) 
     PyErr_Clear();
     throw Error(ErrorKind::kUsage,
                 name + (access == Access::kWrite ? ": cannot be written (give a writable array)"
-                                                 : ": is no array of numbers"));
+                                                 : ": is not an array of numbers"));
   }
   view_ = std::shared_ptr<Py_buffer>(view.release(), [](Py_buffer* held) {
     PyBuffer_Release(held);

@@ -175,7 +175,7 @@ MaterialConversion MaterialConversion::load(const std::string& path,
     built.material = make_warp_converter(*warp, *conversion.choice_.source, best_instruction_set());
   } else {
     throw input_error(path +
-                      ": converts whole materials between workflows, which need no fit (name them as source "
+                      ": converts between workflows, which need no fit (give their names as source "
                       "and target)");
   }
   conversion.built_ = std::make_shared<const BuiltConversion>(std::move(built));

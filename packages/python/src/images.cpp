@@ -294,7 +294,7 @@ class PythonImages : public ImageLibrary {
 
  private:
   static Picture refuse(const fs::path& path) {
-    throw input_error(path.string() + ": whole pictures are read and written by remapc alone");
+    throw input_error(path.string() + ": only remapc reads and writes whole pictures");
   }
 
   Held images_;

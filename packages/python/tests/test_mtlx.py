@@ -524,7 +524,7 @@ def test_faults_of_documents_fail_their_material(tmp_path, maps):
     assert {name for name, report in reports.items() if report.state == "converted"} == {"good"}
     for name, words in (("missing", "base_color: "), ("missing", "nowhere.png: file not found"),
                         ("wide", "base_color: the color space acescg of color.png is not known"),
-                        ("tiles", "base_color: glTF has no tiles"), ("empty", "base_color: its texture NG/empty names no file")):
+                        ("tiles", "base_color: glTF has no tiles"), ("empty", "base_color: its texture NG/empty has no file")):
         assert words in reports[name].reason, reports[name]
     content, _ = glb(tmp_path / "out.glb")
     assert [material["name"] for material in content["materials"]] == ["good"]

@@ -95,7 +95,7 @@ class _DocumentNode(Node):
         end = self._end("file")
         name = "" if end is None or isinstance(end, tuple) else end.getResolvedValueString()
         if not name:
-            raise Error(f"{of}: its texture {self.name} names no file", "input")
+            raise Error(f"{of}: its texture {self.name} has no file", "input")
         folder = os.path.dirname(self.node.getDocument().getSourceUri())
         path = os.path.join(folder, os.path.dirname(end.getActiveSourceUri()), name)  # that of an included document is relative
         space = end.getActiveColorSpace()

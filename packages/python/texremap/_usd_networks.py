@@ -60,7 +60,7 @@ class _ShaderNode(Node):
         attribute = _producer(self.shader, "file")
         asset = attribute.Get() if attribute else None
         if asset is None or not asset.path:
-            raise Error(f"{of}: its texture {self.name} names no file", "input")
+            raise Error(f"{of}: its texture {self.name} has no file", "input")
         path = asset.resolvedPath or asset.path
         if TILE in asset.path and not asset.resolvedPath:
             path = os.path.join(os.path.dirname(attribute.GetPropertyStack()[0].layer.realPath), asset.path)

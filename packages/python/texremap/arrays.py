@@ -338,7 +338,7 @@ def _kept_converter(source, target, options):
 
 def _thread_count(threads):
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 0 <= threads <= 4096:
-        raise Error(f"threads: {threads!r} is no number of threads (0 for one per core)")
+        raise Error(f"threads: {threads!r} is not a number of threads (0 for one per core)")
     return int(threads) or os.cpu_count() or 1
 
 
@@ -403,7 +403,7 @@ class _Maps:
         if isinstance(transfer, dict):
             for name in transfer:
                 if name not in _COLORS:
-                    raise Error(f"transfer: {name} is no color")
+                    raise Error(f"transfer: {name} is not a color")
         arrays = {name: _array(name, value) for name, value in given.items()}
         self.constants = {name: _constants(name, given[name]) for name, array in arrays.items() if array is None}
         arrays = {name: array for name, array in arrays.items() if array is not None}
@@ -455,14 +455,14 @@ def _result_dtype(dtype):
     try:
         wanted = np.dtype(dtype)
     except TypeError:
-        raise Error(f"dtype: {dtype!r} is no type of numbers") from None
+        raise Error(f"dtype: {dtype!r} is not a number type") from None
     _array("dtype", np.empty(1, wanted))
     return wanted.newbyteorder("=")
 
 
 def _result_array(name, array, shape, grey_shape):
     if not isinstance(array, np.ndarray):
-        raise Error(f"out: {name} is no NumPy array")
+        raise Error(f"out: {name} is not a NumPy array")
     if not array.dtype.isnative or _array(f"out: {name}", array) is None:
         raise Error(f"out: {name} is in the other byte order")
     if not array.flags.writeable:

@@ -582,7 +582,7 @@ class Images:
             if data[begin : begin + len(mark)] == mark:
                 fail(f"is {name}, which is not read (convert it to PNG)")
         if extension in ("", "exr", "hdr"):
-            fail("is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)")
+            fail("is not an image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa)")
 
         def refuse(reason):
             fail(f"cannot be read: {_first_line(reason, 'the image is damaged')}")

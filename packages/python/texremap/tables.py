@@ -52,9 +52,9 @@ def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
         refuse("has no line of column names")
     names = lines[0].strip().split(",")
     if "alpha1" not in names:
-        refuse("has no column alpha1, so it is no table of matches")
+        refuse("has no column alpha1, so it is not a table of matches")
     if len(set(names)) != len(names) or not all(names):
-        refuse("the first line without # must name each column once")
+        refuse("the first line without # must contain each column name once")
     cells = [line.strip().split(",") for line in lines[1:]]
     for i, row in enumerate(cells):
         if len(row) != len(names):

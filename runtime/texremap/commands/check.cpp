@@ -184,12 +184,12 @@ void add_check_command(Command& app) {
   command->add_option("PATH", options.paths, "Folders of texture sets and assets, glTF and MTL files, maps")
       ->required();
   command->add_option("--for NAME", options.reader, one_of(gltf_consumers(), "importer"),
-                      "Also name what this reader ignores or takes otherwise");
+                      "Also report what this importer ignores or reads differently");
   command->add_option("--ignore RULES", options.ignored, rule_names(),
                       "Rules to leave out, with commas between");
   command->add_option("--fail-on CONFIDENCE", options.fails_on, one_of(kConfidences, "confidence"),
                       "Exit with 1 on findings that are at least this sure (default: certain)");
-  command->add_option("--names FILE", options.names, "More file-name habits (JSON)");
+  command->add_option("--names FILE", options.names, "More naming conventions (JSON)");
   command->add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core");
   add_memory_option(*command, options.memory_megabytes);
   command->add_flag("--json", options.json, "Print the findings as JSON to standard output");

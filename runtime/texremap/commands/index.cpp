@@ -39,7 +39,7 @@ Listing listing_of_sets(const IndexOptions& options) {
       listing.found.problems.push_back(
           {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
                                       ": its set has the same name as the set of " + other +
-                                      " (rename one of the sets; case does not count)"});
+                                      " (rename one of the sets; upper and lower case are the same)"});
     return !other.empty();
   });
   if (listing.found.sets.empty() && listing.found.problems.empty())
@@ -98,7 +98,7 @@ void add_index_command(Command& app) {
                         "in DIR, not the texture sets");
   command->add_option("--format EXT", options.format, "What OBJ files are to become, as for convert")
       ->needs(assets);
-  command->add_option("--names FILE", options.names, "More file-name habits (JSON)")->excludes(assets);
+  command->add_option("--names FILE", options.names, "More naming conventions (JSON)")->excludes(assets);
   command->add_flag("--force", options.force, "Overwrite an existing manifest");
   command->add_flag("--json", options.json, "Print what was found as JSON");
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");

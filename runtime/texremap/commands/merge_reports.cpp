@@ -65,7 +65,7 @@ void merge(const MergeOptions& options) {
 
 void add_merge_reports_command(Command& app) {
   Command* command = app.add_subcommand("merge-reports",
-                                        "Make one report of the parts of a conversion; name what is missing");
+                                        "Make one report of the parts of a conversion; list what is missing");
   MergeOptions& options = set_work<MergeOptions>(*command, merge);
   command->add_option("DIR", options.folder, "The output folder of the conversion")->required();
   command->add_option("-o,--output FILE", options.output,

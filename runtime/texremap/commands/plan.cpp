@@ -237,7 +237,7 @@ void add_plan_command(Command& app) {
   command->add_flag("--json", options.json, "Print what was planned as JSON");
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
   command->footer(
-      "A few of them are converted to a temporary folder, which tells time and memory. Standard output has "
+      "A few of them are converted to a temporary folder, to measure time and memory. Standard output has "
       "the "
       "line that submits the plan.\n\n"
       "Example:\n"

@@ -179,8 +179,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets);
   command
       .add_option("--to MODEL", options.to, model_name(),
-                  "Where the results go: unity, unreal, blender, ... also pack and name the files as that "
-                  "program reads them; gltf, cycles-5, mitsuba/as, ... (texremap list)")
+                  "Where the results go: unity, unreal, blender, ... also packs and names the files as that "
+                  "program expects; gltf, cycles-5, mitsuba/as, ... (texremap list)")
       ->common()
       ->tag(kForAssets);
   command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
@@ -192,15 +192,14 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kNeedsTree | kForAssets | kNeedsFolder);
   command
       .add_flag("--assets", options.assets,
-                "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR, not the "
-                "texture sets that "
-                "the names of images tell")
+                "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR instead of its "
+                "texture sets")
       ->tag(kNeedsAsset);
   command
       .add_option(
           "--root FOLDER", options.asset_root,
-          "Assets may name files below this folder, whose tree the results mirror (default: the folder "
-          "of the asset; with --assets DIR)")
+          "Folder that contains all files of the assets; results keep its tree (default: the folder of "
+          "the asset; with --assets DIR)")
       ->tag(kNeedsAsset);
   command
       .add_flag("--follow-links", options.follow_links,
@@ -216,8 +215,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
   manifest->excludes(command.option("--assets"));
   command
       .add_option("--part I/N", options.part, given_part(),
-                  "Convert part I of N of the manifest; auto takes both from the array of jobs that this "
-                  "process belongs to, auto/N takes I from it")
+                  "Convert part I of N of the manifest; auto reads both from the array job of this "
+                  "process, auto/N reads I")
       ->needs(manifest)
       ->tag(kOfPlan | kForAssets);
   command
@@ -234,7 +233,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--mtl-from MAKER", options.mtl_maker, one_of(kMtlMakers, "maker"),
           "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
-          "text of the format says")
+          "text of the format states")
       ->tag(kChangesResults | kNeedsAsset);
   const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
     command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
@@ -290,7 +289,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--color-space NAME", options.color_spaces, color_spaces(),
           "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: "
-          "as the file says; otherwise srgb for integers and linear for half and float)")
+          "as the file states; otherwise srgb for integers and linear for half and float)")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_flag("--resample", options.resample,
@@ -305,7 +304,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->tag(kChangesResults | kNeedsFolder);
-  command.add_option("--names FILE", options.names, "More file-name habits for the maps in DIR (JSON)")
+  command.add_option("--names FILE", options.names, "More naming conventions for the maps in DIR (JSON)")
       ->tag(kChangesResults | kNeedsFolder);
 }
 
@@ -318,8 +317,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets | kNeedsFiles);
   command
       .add_option("--layout NAME", options.layout, layout(),
-                  "Files to write: those of an engine by its name, or in words, as "
-                  "'Mask=metallic,occlusion,0,smoothness; Albedo=base_color' (default: those of --to)")
+                  "Files to write: the name of an engine, or a list such as "
+                  "'Mask=metallic,occlusion,0,smoothness; Albedo=base_color' (default: as for --to)")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
@@ -334,10 +333,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
           "PNG files, 3 in assets)")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
-      .add_option(
-          "--output-color-space NAME", options.output_color_spaces, color_spaces(),
-          "How colors are written: srgb or linear, or per map (default: whole numbers as the map that "
-          "they follow, otherwise srgb; half and float linear)")
+      .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),
+                  "How colors are written: srgb or linear, or per map (default: integers as their input map, "
+                  "otherwise srgb; half and float linear)")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
       ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
@@ -425,13 +423,12 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--output-encoding NAME", options.output_encoding, one_of(kRoughnessEncodings, "encoding"),
           "What the roughness results hold (default: as the inputs where that is known, else what the "
-          "target model takes; a file named glossiness holds glossiness)")
+          "target model takes; a file named glossiness contains glossiness)")
       ->tag(kChangesResults);
   command
-      .add_option(
-          "--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
-          "Exponent that 1, or white, stands for in the result: 1000 as in MTL files, 128 as in OpenGL, "
-          "100 for percent")
+      .add_option("--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
+                  "Exponent that 1, or white, means in the result: 1000 as in MTL files, 128 as in OpenGL, "
+                  "100 for percent")
       ->tag(kChangesResults);
   command
       .add_option("--factor NAME=NUMBERS", options.factors, factor_word(),

@@ -26,7 +26,7 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
                         " (copy the file into this folder, or give --root a folder that contains both)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
-    throw input_error(display_path(path) + ": has a name of texremap's own files (rename it)");
+    throw input_error(display_path(path) + ": has a name that texremap uses for its own files (rename it)");
   return place;
 }
 
@@ -96,7 +96,7 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
         display_path(job.input) + ": " + (resource.where.empty() ? "" : resource.where + ": ");
     if (resource.kind == UriKind::kAbsolute)
       throw input_error(context + display_path(resource.path) +
-                        " is an absolute path (name the file relative to the asset)");
+                        " is an absolute path (use a path relative to the asset)");
     fs::path source, target;
     try {
       source = files.input(resource.path);
@@ -106,9 +106,9 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(context + display_path(resource.path) + " uses itself as one of its files");
+      throw input_error(context + display_path(resource.path) + " refers to itself (remove this reference)");
     if (!fs::is_regular_file(source, ignored)) {
-      plan.warnings.push_back("names " + display_path(resource.path) + ", which is not there");
+      plan.warnings.push_back("refers to " + display_path(resource.path) + ", which was not found");
       continue;
     }
     if (same_file(source, target)) continue;

@@ -35,7 +35,8 @@ const AssetFormat* format_of(const fs::path& path) {
 AssetKind kind_of_asset(const fs::path& path) { return format_of(path)->kind; }
 
 constexpr const char* kObjRemedy =
-    " becomes a glTF file (name the output *.glb or *.gltf, or give --format glb; to keep MTL, give the MTL "
+    " becomes a glTF file (use an output name *.glb or *.gltf, or give --format glb; to keep MTL, give the "
+    "MTL "
     "file instead)";
 
 }  // namespace
@@ -75,7 +76,7 @@ void require_format(const fs::path& input, const fs::path& output) {
       throw usage_error("--output " + output.string() + ": " + display_path(input) + kObjRemedy);
   } else if (extension_of(input) != extension_of(output)) {
     throw usage_error("--output " + output.string() + ": " + display_path(input) +
-                      " keeps its format (name the output *" + extension_of(input) + ")");
+                      " keeps its format (use an output name *" + extension_of(input) + ")");
   }
 }
 

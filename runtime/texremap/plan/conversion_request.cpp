@@ -212,14 +212,15 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
     return normals;
   }
   if (!stated && !of_source) {
-    normals.reason = "neither the name nor --from says whether it is OpenGL or DirectX, and " + target +
-                     " reads " + text(*wanted) + " (write GL or DX into the name, as wood_NormalGL.png)";
+    normals.reason = "neither the file name nor --from shows whether the map is OpenGL or DirectX; " +
+                     target + " reads " + text(*wanted) +
+                     " (add GL or DX to the name, such as wood_NormalGL.png)";
     return normals;
   }
   const NormalGreen green = stated ? stated->green : *of_source;
   if (green == *wanted) {
     if (of_source && *of_source != green)
-      normals.reason = "the name says " + text(green) + ", which " + target + " reads (maps of " + from +
+      normals.reason = "its name means " + text(green) + ", which " + target + " reads (maps of " + from +
                        " are " + text(*of_source) + ")";
     return normals;
   }
@@ -228,7 +229,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
   normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
   normals.reason =
-      (stated ? "the name" : from) + " says " + text(green) + ", and " + target + " reads " + text(*wanted);
+      (stated ? "its name" : from) + " means " + text(green) + ", but " + target + " reads " + text(*wanted);
   return normals;
 }
 
@@ -243,7 +244,8 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
   if (held && (*asked == kGlossiness) != (*held == kGlossiness))
     throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
                                        " cannot be used with --layout " + choice.layout.name +
-                                       ", which holds " + std::string(encoding_name(*held)));
+                                       ", which stores " + std::string(encoding_name(*held)) +
+                                       " (use --layout separate)");
   if (options.only == Parameter::kSpecular)
     throw Error(ErrorKind::kUsage,
                 "--output-encoding: has no effect, because --only specular writes no roughness");
@@ -264,7 +266,7 @@ RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const Ta
   if (asked && is_glossy != (*asked == kGlossiness))
     throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
                                        ": the result keeps the name " + source.file.filename().string() +
-                                       ", which holds " + (is_glossy ? "glossiness" : "roughness") +
+                                       ", which means " + (is_glossy ? "glossiness" : "roughness") +
                                        " (use --layout separate)");
   if (is_glossy) return kGlossiness;
   return wanted == kGlossiness ? kRoughness : wanted;
@@ -345,7 +347,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
 
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
   if (is_given && width != RoughnessEncoding::kExponent)
-    throw usage_error("--exponent-of-white: applies to exponents only, and the results hold " +
+    throw usage_error("--exponent-of-white: applies only to exponents, but the results contain " +
                       std::string(encoding_name(width)) + " (remove this option)");
 }
 

@@ -31,8 +31,8 @@ std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const
   const auto* data = std::get_if<ConverterData>(&fit);
   if (data == nullptr)
     throw Error(ErrorKind::kInput, options.fit +
-                                       ": converts whole materials between workflows, which --from and --to "
-                                       "name without a fit (remove --fit)");
+                                       ": converts between workflows, which --from and --to "
+                                       "select without a fit (remove --fit)");
   require_models_of_fit(options.fit, {workflow.source_brdf, workflow.target_brdf},
                         {data->info.source.model, data->info.target.model});
   return make_converter(*data, set);
@@ -91,14 +91,14 @@ std::string encoding_warning(const ConvertOptions& options, const JobList& list,
 std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   if (options.manifest.empty()) return std::nullopt;
   if (!options.names.empty())
-    throw usage_error("--names cannot be used with --manifest (give it to texremap index)");
+    throw usage_error("--names cannot be used with --manifest (give --names to texremap index instead)");
   const Part all;
   TreeManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
-    throw input_error(options.folder.string() + ": no such folder, which " + options.manifest.string() +
-                      " is of (give DIR, where the tree lies now)");
+    throw input_error(options.folder.string() + ": this folder of " + options.manifest.string() +
+                      " does not exist (give the present folder as DIR)");
   require_outside(options.output, options.folder);
   return manifest;
 }
@@ -226,7 +226,7 @@ void require_asset_options(const ConvertOptions& options) {
   if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
                       (options.more_assets.empty()
-                           ? std::string("--root, because DIR is the root already")
+                           ? std::string("--root, because DIR is the root already (remove --root)")
                            : display_path(options.more_assets.front()) + " (give one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)

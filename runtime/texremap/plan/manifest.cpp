@@ -55,7 +55,7 @@ struct ListedEntry {
 void require_listable(const fs::path& path) {
   if (!is_utf8(path.string()))
     throw input_error(display_path(path) +
-                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+                      ": the name is not UTF-8, so a manifest cannot list it (rename it)");
   if (const std::string fault = fault_of_relative(path.string()); !fault.empty())
     throw input_error(display_path(path) + ": the name " + fault + ", which a manifest refuses (rename it)");
 }
@@ -333,7 +333,7 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
   head.names = names;
   if (!is_utf8(head.root.string()))
     throw input_error(display_path(head.root) +
-                      ": the name is not UTF-8, which a manifest cannot hold (rename it)");
+                      ": the name is not UTF-8, so a manifest cannot list it (rename it)");
   const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
   // The hash precedes the lines. They are made twice and not kept, because a manifest may have gigabytes.

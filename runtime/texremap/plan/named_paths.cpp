@@ -73,7 +73,7 @@ constexpr std::array<UnreadFormat, 34> kUnread = {{
     {".unity .prefab .unitypackage .asset .shadergraph", "Unity", kTextures},
 }};
 
-constexpr const char* kRead = "texremap reads glTF, GLB, OBJ and MTL files";
+constexpr const char* kRead = "glTF, GLB, OBJ and MTL";
 
 bool is_regular(const fs::path& path) {
   std::error_code ignored;
@@ -93,8 +93,8 @@ void require_readable(const fs::path& path) {
   std::string remedy(found->remedy);
   if (const std::size_t at = remedy.find("FILE"); at != std::string::npos)
     remedy.replace(at, 4, shell_word(path.string()));
-  throw usage_error(display_path(path) + ": " + std::string(found->name) + " files are not read; " + kRead +
-                    " (" + remedy + ")");
+  throw usage_error(display_path(path) + ": texremap does not read " + std::string(found->name) +
+                    " files, only " + kRead + " (" + remedy + ")");
 }
 
 void require_one_kind(const fs::path& first, const std::vector<fs::path>& more) {

@@ -51,12 +51,12 @@ std::optional<KeptUse> kept_of(const FoundSet& set, std::vector<MapUse> found,
   const auto whole = those(found, [](const MapUse& use) {
     return use.channels == Channels::kWhole || use.channels == Channels::kRgb;
   });
-  if (whole.size() == 1) return KeptUse{whole.front(), "a map of its own"};
+  if (whole.size() == 1) return KeptUse{whole.front(), "a separate map"};
   const auto role_count = [&](const MapUse& use) { return set.maps[use.map].meaning.size(); };
   std::size_t most = 0;
   for (const MapUse& use : found) most = std::max(most, role_count(use));
   const auto fullest = those(found, [&](const MapUse& use) { return role_count(use) == most; });
-  if (fullest.size() == 1) return KeptUse{fullest.front(), "which holds more of the material"};
+  if (fullest.size() == 1) return KeptUse{fullest.front(), "which contains more of the material"};
   return std::nullopt;
 }
 
@@ -159,15 +159,16 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     if (inferred.empty()) continue;
     const std::string context = display_path(set.folder / set.name);
     if (!first.empty() && inferred != model)
-      throw usage_error("--from is required, because the sets differ: " + first + " is of the model " +
-                        model + ", " + context + " of " + inferred + " (convert them apart)");
+      throw usage_error("--from is required, because the sets differ: " + first + " uses the model " + model +
+                        ", " + context + " uses " + inferred + " (convert them separately)");
     if (first.empty()) first = context;
     model = inferred;
     ++count;
   }
   if (first.empty())
     throw usage_error(
-        "--from is required (the names of the maps do not tell it; texremap list shows those of models)");
+        "--from is required, because the file names do not identify the source (texremap list shows the "
+        "models)");
   return {model, "--from is taken as " + model + ", by the maps of " +
                      (count == 1 ? first : std::to_string(count) + " sets")};
 }

@@ -194,7 +194,7 @@ void SetJobs::leave_out_shared() {
   const auto is_shared = [&](const fs::path& file) {
     return std::ranges::any_of(shared, [&](const fs::path& map) { return same_file(map, root_ / file); });
   };
-  for (const fs::path& map : shared) jobs_.notes.push_back(display_path(map) + " is used for every set");
+  for (const fs::path& map : shared) jobs_.notes.push_back(display_path(map) + " is used for all sets");
   std::erase_if(found_.sets, [&](const FoundSet& set) {
     return std::ranges::all_of(set.maps, [&](const FoundMap& map) { return is_shared(map.path); });
   });
@@ -215,9 +215,9 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
-                    " does not take: its specular is not the specular of the material (--from metallic "
-                    "converts it whole)");
+    notes.push_back(context(set) + ": has base color and metallic, but " + workflow_.source_brdf +
+                    " does not use them: its specular is not the specular of the material (--from metallic "
+                    "converts the whole material)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -252,7 +252,8 @@ bool SetJobs::find_source(const FoundSet& set, Parameter parameter, const std::s
   if (const MapName* given = given_map(parameter)) {
     const fs::path file = file_of_set(given->file, set, number);
     if (!is_file(file)) {
-      fail(context(set) + ": no " + display_path(file.filename()) + ", which " + option + " names");
+      fail(context(set) + ": " + display_path(file.filename()) + " of " + option +
+           " was not found (add it, or remove the option)");
       return false;
     }
     asked.source = MapName{file, given->channels};

@@ -35,7 +35,7 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
            ": has no effect, because every input is translated (remove this option)");
   if (choice.changes_nothing)
     refuse(options, kNeedsMetallic,
-           ": has no effect, because both ends are one material (remove this option)");
+           ": has no effect, because source and target have the same material model (remove this option)");
   if (!choice.is_to_metallic())
     refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
 }

@@ -172,9 +172,9 @@ MergedReport ReportMerger::merge() {
   const std::vector<Part> parts = parts_found();
   merged_.part_count = parts.back().count;
   if (parts.front().count != parts.back().count)
-    problem("there are reports of " + std::to_string(parts.front().count) + " and of " +
-            std::to_string(parts.back().count) + " parts (remove the reports of the earlier run from " +
-            folder_.string() + ")");
+    problem(folder_.string() + ": contains reports of runs with " + std::to_string(parts.front().count) +
+            " and with " + std::to_string(parts.back().count) +
+            " parts (remove the reports of the earlier run)");
   std::vector<bool> has(merged_.part_count, false);
   for (const Part& part : parts) {
     if (part.count != merged_.part_count) continue;

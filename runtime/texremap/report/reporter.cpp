@@ -81,7 +81,10 @@ void require_success(const Outcome& outcome) {
     int passing = 0;  // code of the first failure that may pass in another run
     for (const JobReport& report : outcome.reports)
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
-    throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed", passing);
+    throw Error(
+        ErrorKind::kInput,
+        (failed == all ? counted(all, noun_of(list.kind)) + " " : std::to_string(failed) + of_all) + "failed",
+        passing);
   }
   if (outcome.reports.empty() && !list.skipped.empty() && !outcome.plan.part)
     throw input_error(std::to_string(list.skipped.size()) + of_all +

@@ -47,8 +47,8 @@ double used_f0(const DielectricF0& estimated) { return std::round(estimated.f0 *
 std::optional<std::string> JobReport::failure_text() const {
   const std::size_t failed = count(MaterialState::kFailed);
   if (failure || failed == 0) return failure;
-  return std::to_string(failed) + " of " +
-         counted(materials.size() - count(MaterialState::kUntouched), "material") + " failed";
+  const std::size_t all = materials.size() - count(MaterialState::kUntouched);
+  return (failed == all ? "" : std::to_string(failed) + " of ") + counted(all, "material") + " failed";
 }
 
 }  // namespace remap

@@ -105,7 +105,7 @@ class AssetCodec final : public ImageCodec {
     };
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4)
-      refuse("its size or its number of channels is none of an image of an asset");
+      refuse("its size or its number of channels is invalid for an asset (1 to 4 channels are allowed)");
     ImagePixels pixels;
     pixels.width = static_cast<std::size_t>(spec.width);
     pixels.height = static_cast<std::size_t>(spec.height);

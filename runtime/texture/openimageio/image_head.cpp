@@ -257,10 +257,10 @@ ImageHead checked_head(const ImageBytes& image, const std::string& context, Imag
   if (head.format.empty() || (is_picture && use == ImageUse::kAsset)) {
     const std::string name = is_picture ? head.format : known_name(begin);
     throw input_error(context + ": " +
-                      (!name.empty() ? "is " + name + ", which is not read " +
+                      (!name.empty() ? "is " + name + ", which texremap does not read " +
                                            (is_picture ? "in assets " : "") + "(convert it to PNG)"
                        : use == ImageUse::kAsset
-                           ? "is no image of a known format (PNG, JPEG, WebP, BMP, TIFF and Targa are read)"
+                           ? "is not an image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa)"
                            : "cannot be read as an image: unknown format (PNG, JPEG, WebP, BMP, TIFF, Targa, "
                              "OpenEXR and Radiance HDR "
                              "are read)"));
@@ -286,11 +286,11 @@ void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const
   const std::uint64_t bytes = spec.image_bytes(true), row = spec.scanline_bytes(true);
   if (spec.width < 1 || spec.height < 1) return;  // the caller reports empty images with its own message
   if (spec.image_pixels() > kMostTexels)
-    throw input_error(context + ": has " + size + " texels, more than the most that are read (" +
+    throw input_error(context + ": has " + size + " texels, which is more than texremap can read (" +
                       std::to_string(kMostTexels) + ")");
   if (bytes / kMostBytesOfAByte > image.size)
-    refuse_damaged(
-        context, "its size of " + size + " does not fit a file of " + std::to_string(image.size) + " bytes");
+    refuse_damaged(context, "its size of " + size + " is too large for a file of " +
+                                std::to_string(image.size) + " bytes");
   // Importers of strips, tiles and blocks keep this many rows.
   const int strip = std::max({spec.tile_height, spec.get_int_attribute("tiff:RowsPerStrip"), 256});
   require_image_memory(

@@ -257,7 +257,7 @@ void OpenedImage::refuse_spoiled_webp() {
     for (std::size_t i = alpha; i < row.size(); i += layout_.texel_bytes)
       if (row[i] != std::byte{255})
         fail(
-            "is WebP with alpha, by which OpenImageIO multiplies the colors when it reads them, so that they "
+            "is WebP with alpha: OpenImageIO multiplies the colors by alpha when it reads them, so that they "
             "are lost (convert it to PNG: dwebp " +
             shell_word(path().string()) + " -o " +
             shell_word(fs::path(path()).replace_extension(".png").string()) + ")");
@@ -270,7 +270,7 @@ void OpenedImage::count_parts() {
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
   if (part_count_ == kMostParts && input_->seek_subimage(part_count_, 0))
-    fail("has more than " + std::to_string(kMostParts) + " parts, the most that are read (split the file)");
+    fail("has more than " + std::to_string(kMostParts) + " parts, which is the limit (split the file)");
 }
 
 void OpenedImage::find_planes() {

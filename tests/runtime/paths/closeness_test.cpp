@@ -83,7 +83,7 @@ TEST_CASE("closeness: a renderer in the place of a model is refused with its mod
   converters.add("r/c", "s/b", 0.1);
   const ConverterGraph graph = converters.graph();
   CHECK_THROWS_WITH(graph.find_paths({"r", "s/b", {}}),
-                    "source model: r is a renderer (choose one of its models: r/a, r/c)");
+                    "r: is a renderer, not a model (choose one of its models: r/a, r/c)");
   CHECK_THROWS_WITH(graph.find_paths({"r/a", "s", {}}),
                     "target model: s is a renderer (choose one of its models: s/b)");
   // If no converter starts from a source, the message does not offer it.

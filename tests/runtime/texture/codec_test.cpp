@@ -81,8 +81,9 @@ TEST_CASE("The codec refuses images of a few bytes that claim more texels than t
   CHECK_THROWS_WITH(image_library().codec().decode(bmp, "image"),
                     "image: is damaged: its size of 40000x40000 does not fit a file of 1082 bytes");
   bmp.replace(18, 8, "\xff\xff\xff\x7f\xff\xff\xff\x7f");
-  CHECK_THROWS_WITH(image_library().codec().decode(bmp, "image"),
-                    Catch::Contains("has 2147483647x2147483647 texels, more than the most that are read"));
+  CHECK_THROWS_WITH(
+      image_library().codec().decode(bmp, "image"),
+      Catch::Contains("has 2147483647x2147483647 texels, which is more than texremap can read"));
 }
 
 TEST_CASE("The codec refuses Targa files with colors behind the end of their palette", "[texture]") {
