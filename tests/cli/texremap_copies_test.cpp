@@ -143,7 +143,7 @@ TEST_CASE(
       down.errors,
       Contains("wood_Normal_OpenGL.png: green is inverted in the copy wood_Normal_DirectX.png, because "
                "its name means OpenGL (green up), but unreal reads DirectX (green down)") &&
-          Contains("tin_Normal.png: green is kept, because neither the name nor --from says"));
+          Contains("tin_Normal.png: green is kept, because neither the file name nor --from shows"));
   CHECK_FALSE(fs::exists(session.path("unreal/wood_Normal_OpenGL.png")));
   const TestImage before = session.image("in/wood_Normal_OpenGL.png"),
                   after = session.image("unreal/wood_Normal_DirectX.png");

@@ -113,7 +113,7 @@ TEST_CASE("texremap hostile: an asset is never the part of another one, nor is w
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.errors, Contains("out/b.gltf: would be written twice, from the conversion of in/b.gltf "
                                   "and from in/b.gltf") &&
-                             Contains("has a name of texremap's own files (rename it)"));
+                             Contains("has a name that texremap uses for its own files (rename it)"));
   CHECK_THAT(folder.content("out/b.gltf"), Contains("pbrMetallicRoughness"));
   CHECK_FALSE(fs::exists(folder.path("out/z.gltf")));
   CHECK(folder.content("out/.texremap.jsonl").starts_with("{\"conversion\""));
@@ -141,7 +141,7 @@ TEST_CASE("texremap hostile: of two sets that differ in case alone the second is
                                                      "\xc3\x84"
                                                      "bc_specular.png"});
   CHECK_THAT(folder.texremap("index in -o m.jsonl").errors,
-             Contains("(rename one of the sets; case does not count)"));
+             Contains("(rename one of the sets; upper and lower case"));
 }
 
 TEST_CASE("texremap hostile: links that others planted in the output folder are not followed") {
@@ -309,9 +309,9 @@ TEST_CASE(
   CHECK(run.exit_code == 1);
   CHECK(run.last_error() == "texremap: 5 of 7 sets failed");
   CHECK_THAT(run.errors,
-             Contains("bomb_roughness.png: is damaged: its size of 32768x32768 does not fit a file of") &&
-                 Contains("is DPX, which is not read (convert it to PNG)") &&
-                 Contains("is IFF, which is not read") && Contains("compression 2 of 24 bits") &&
+             Contains("bomb_roughness.png: is damaged: its size of 32768x32768 is too large for a file of") &&
+                 Contains("is DPX, which texremap does not read (convert it to PNG)") &&
+                 Contains("is IFF, which texremap does not read") && Contains("compression 2 of 24 bits") &&
                  Contains("a header of 268 bytes"));
   CHECK_THAT(folder.texremap("check in --quiet").errors, Contains("32768x32768"));
   folder.map("large/x_roughness.tif", kColor, OIIO::TypeUInt8, 2048);

@@ -213,8 +213,8 @@ TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is
     session.make("in/chair_" + std::string(word) + ".png", spec, noise);
   const ProcessResult differ = session.texremap("convert in --to gltf -o out2");
   CHECK(differ.exit_code == 2);
-  CHECK_THAT(differ.errors, Contains("--from is required, because the sets differ: chair is of the model "
-                                     "gltf-specgloss, wood of metallic"));
+  CHECK_THAT(differ.errors, Contains("--from is required, because the sets differ: chair uses the model "
+                                     "gltf-specgloss, wood uses metallic"));
 }
 
 TEST_CASE("texremap: of several maps of one parameter, one is taken and named, or --prefer chooses") {
@@ -248,7 +248,7 @@ TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
   CHECK(channel(session, "out/wood_Occlusion.png", 0) == channel(session, "in/wood_mine.png", 0));
   std::filesystem::remove(session.path("in/wood_mine.png"));
   CHECK_THAT(session.texremap(words + "--force").errors,
-             Contains("in/wood: no wood_mine.png, which --roughness names"));
+             Contains("in/wood: wood_mine.png of --roughness was not found"));
 }
 
 TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter") {

@@ -160,7 +160,7 @@ TEST_CASE("texremap nights: the exit code is 1 if every set is skipped, and 0 if
   const ProcessResult result = tree.texremap(words);
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors, Contains("skipped: in/deep/Robot: no roughness or glossiness map"));
-  CHECK_THAT(result.errors, Contains("Robot_ReflectionGlossiness.png holds the square of glossiness"));
+  CHECK_THAT(result.errors, Contains("Robot_ReflectionGlossiness.png contains squared glossiness"));
   CHECK_THAT(result.last_error(), Contains("1 of 1 set skipped"));
   tree.map("in/deep/wood_roughness.png", kGrey);
   tree.map("in/deep/wood_specular.png", kColor);

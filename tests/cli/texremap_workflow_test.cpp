@@ -297,10 +297,10 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   const std::string back =
       "convert --from mtl --to gltf --roughness whole/exponent.png --specular whole/specular.png "
       "--diffuse whole/diffuse.png ";
-  CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--factor roughness=NUMBER says"));
+  CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--factor roughness=NUMBER sets"));
   CHECK(session.texremap(back + "--factor roughness=1000 -o back").exit_code == 0);
   CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
-             Contains("applies to exponents only"));
+             Contains("applies only to exponents"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

@@ -75,7 +75,8 @@ TEST_CASE("chain: what cannot be composed is refused with the place") {
   const Fit a = fit_of("x/a", "x/b", straight(0.5, 0.0, 1.0)),
             b = fit_of("x/b", "x/c", straight(1.0, 0.0, 1.0));
   CHECK_THROWS_WITH(compose({a}), Catch::Contains("at least 2"));
-  CHECK_THROWS_WITH(compose({b, a}), Catch::Contains("x_b_to_x_c gives x/c") && Catch::Contains("takes x/a"));
+  CHECK_THROWS_WITH(compose({b, a}),
+                    Catch::Contains("x_b_to_x_c converts to x/c") && Catch::Contains("from x/a"));
   CHECK_THROWS_WITH(compose({a, fit_of("x/b", "x/a", straight(1.0, 0.0, 1.0))}),
                     Catch::Contains("x/a a second time") && Catch::Contains("x_b_to_x_a"));
   Fit rough = b;

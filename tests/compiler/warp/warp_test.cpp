@@ -339,11 +339,11 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
       refused("\"nodes\": 128", "\"nodes\": 127", "the table has the wrong size");
       refused("\"nodes\": 128", "\"nodes\": 1", "the number of nodes is invalid (2 to 4096");
       refused("\"dimension\": 2", "\"dimension\": 3", "the weights of");
-      refused("\"copy_rms_error\": 0.0123", "\"copy_rms_error\": -2", "-1 where it is not known");
+      refused("\"copy_rms_error\": 0.0123", "\"copy_rms_error\": -2", "-1 if it is unknown");
       if (copied) {
         refused("\"indices\": \"", "\"indices\": \"//8", "base64 in whole groups");
-        refused("\"indices\": \"", "\"indices\": \"////", "whole numbers of 2 bytes");
-        refused("\"palette\": \"", "\"palette\": \"AAAA", "whole numbers of 4 bytes");
+        refused("\"indices\": \"", "\"indices\": \"////", "integers of 2 bytes");
+        refused("\"palette\": \"", "\"palette\": \"AAAA", "integers of 4 bytes");
         refused("\"kind\": \"copied\"", "\"kind\": \"other\"", "blended or copied");
         // These changes are hidden in base64.
         const auto invalid = [&](const auto& change, const std::string& message) {
@@ -356,7 +356,7 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
             "an index is beyond the end of the palette");
         for (const float value : {std::numeric_limits<float>::quiet_NaN(), -0.5f})
           invalid([&](CopiedNodes& nodes) { nodes.palette[1][3] = value; },
-                  "the palette holds an invalid value");
+                  "the palette contains an invalid value");
         invalid([](CopiedNodes& nodes) { nodes.palette.clear(); },
                 "the palette has the wrong size (1 to 65536 texels)");
       } else {

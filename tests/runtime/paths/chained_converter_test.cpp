@@ -188,7 +188,8 @@ TEST_CASE("chained converter: a step that takes other parameters than the one be
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::kInput);
     CHECK(std::string(error.what()) ==
-          "r_a_to_r_b then r_b_to_r_c: the first gives alpha and specular of r/b; the second takes "
+          "r_a_to_r_b then r_b_to_r_c: the first converts to alpha and specular of r/b, but the second "
+          "converts from "
           "roughness and specular of r/b");
   }
   CHECK_THROWS_AS(make_chained_converter({chain.steps[1], chain.steps[0]}), Error);

@@ -85,7 +85,7 @@ TEST_CASE("closeness: a renderer in the place of a model is refused with its mod
   CHECK_THROWS_WITH(graph.find_paths({"r", "s/b", {}}),
                     "r: is a renderer, not a model (choose one of its models: r/a, r/c)");
   CHECK_THROWS_WITH(graph.find_paths({"r/a", "s", {}}),
-                    "target model: s is a renderer (choose one of its models: s/b)");
+                    "s: is a renderer, not a model (choose one of its models: s/b)");
   // If no converter starts from a source, the message does not offer it.
   CHECK_THROWS_WITH(graph.find_paths({"s", "r/a", {}}), Catch::StartsWith("unknown source model 's'"));
 }

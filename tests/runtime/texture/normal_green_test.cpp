@@ -66,6 +66,6 @@ TEST_CASE("normal green: a map without green cannot be turned, and leaves nothin
   write_image(folder.path() / "n.png", test_spec(8, 8, {"Y"}, OIIO::TypeUInt8), noise);
   CHECK_THROWS_WITH(
       turned_copy(std::make_shared<const InputFile>(folder.path() / "n.png"), folder.path() / "m.png"),
-      Catch::Contains("has no green channel to turn"));
+      Catch::Contains("has no green channel to invert"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "m.png"));
 }

@@ -183,11 +183,11 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
             R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteOffset":1,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, but the buffer has only 4 bytes");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
-        "a.glb: /buffers/1: its byteLength is not a whole number");
+        "a.glb: /buffers/1: its byteLength is not an integer");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
-        "a.glb: /bufferViews/0: its buffer, byteOffset and byteLength are not whole numbers");
+        "a.glb: /bufferViews/0: its buffer, byteOffset and byteLength are not integers");
   CHECK(
       asset_failure(glb_bytes(with(R"("buffers":[{"byteLength":8}])"), chunk_bytes(kBinaryChunk, "abcd"))) ==
       "a.glb: /buffers/0 has 8 bytes, but the binary chunk has 4");
