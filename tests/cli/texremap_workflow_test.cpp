@@ -327,7 +327,7 @@ TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workfl
   const Session session;
   for (const std::string source :
        {"radiance/plastic --roughness 0", "mujoco --roughness 64", "mtl --roughness 1000",
-        "gltf-specgloss --roughness 1 --roughness-encoding glossiness"}) {
+        "gltf-specgloss --glossiness 1"}) {
     const ProcessResult numbers = require_success(
         session.texremap("convert --from " + source + " --to gltf --specular 0 --diffuse 0.7"));
     INFO(source << ": " << numbers.output);

@@ -48,6 +48,20 @@ NamedWord named_word(const std::string& option, const std::string& word) {
   return {*parameter, word.substr(sign + 1)};
 }
 
+// Reads the encoding of roughness maps. Glossiness has an option for its maps.
+Reader<RoughnessEncoding> map_encoding() {
+  Reader<RoughnessEncoding> reader = one_of(kRoughnessEncodings, "encoding");
+  std::erase(reader.choices, "glossiness");
+  reader.read = [read = reader.read](const std::string& option, const std::string& word) {
+    if (word == "glossiness")
+      throw usage_error(option +
+                        ": glossiness maps have their own option (use --glossiness MAP; for a folder, a "
+                        "pattern such as --glossiness '*_gloss.png')");
+    return read(option, word);
+  };
+  return reader;
+}
+
 Reader<InputWord> input_word() {
   return {[](const std::string& option, const std::string& word) {
             NamedWord named = named_word(option, word);
@@ -279,10 +293,10 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "repeatable (for --from or --to openpbr and standard-surface)")
       ->tag(kChangesResults | kNeedsTranslation);
   command
-      .add_option("--roughness-encoding NAME", options.roughness_encoding,
-                  one_of(kRoughnessEncodings, "encoding"),
-                  "What roughness maps hold; roughness is the square root of alpha (default: what the source "
-                  "model takes); maps named glossiness or smoothness hold that")
+      .add_option(
+          "--roughness-encoding NAME", options.roughness_encoding, map_encoding(),
+          "What roughness maps contain; roughness is the square root of alpha (default: the encoding of "
+          "the source model); for glossiness, use --glossiness")
       ->tag(kChangesResults | kNotWithDiffuseWarp)
       ->excludes(command.option("--glossiness"));
   command
