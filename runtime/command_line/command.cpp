@@ -174,6 +174,11 @@ void Command::retire(const std::string& name, const std::string& remedy) {
   app_->add_flag_callback(name, [name, remedy] { throw usage_error(name + ": " + remedy); })->group("");
 }
 
+void Command::retire_command(const std::string& name, const std::string& remedy) {
+  app_->add_subcommand(name)->prefix_command()->group("")->callback(
+      [name, remedy] { throw usage_error(name + ": " + remedy); });
+}
+
 void Command::option_group(const std::string& name) { app_->option_defaults()->group(name); }
 
 Option* Command::option(const std::string& name) {

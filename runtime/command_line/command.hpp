@@ -166,6 +166,8 @@ class Command {
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
   // Refuses an option of earlier versions, and prints what to do. Help does not show it.
   void retire(const std::string& name, const std::string& remedy);
+  // Refuses a command that only another package has, and prints where it is. Help does not show it.
+  void retire_command(const std::string& name, const std::string& remedy);
   // Sets the heading under which the help of this command lists the options that are added from now on
   // (help_text.hpp).
   void option_group(const std::string& name);

@@ -117,6 +117,9 @@ Options positionals(const CLI::App& app) {
       [](const CLI::Option* option) { return option->get_positional() && !option->get_group().empty(); });
 }
 
+// Returns false for commands that are only refused, which have no group.
+bool is_shown(const CLI::App* command) { return !command->get_group().empty(); }
+
 std::string usage(const CLI::App& app, const std::string& name) {
   std::string text = "Usage: " + name;
   if (!app.get_subcommands([](const CLI::App*) { return true; }).empty()) return text + " COMMAND [options]";
@@ -190,7 +193,7 @@ class HelpFormatter : public CLI::FormatterBase {
   // Returns the commands of a program, by group.
   static std::string commands(const CLI::App& app) {
     std::vector<std::string> names;
-    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    const auto all = app.get_subcommands(is_shown);
     for (const CLI::App* command : all)
       if (std::find(names.begin(), names.end(), command->get_group()) == names.end())
         names.push_back(command->get_group());
@@ -247,8 +250,7 @@ Json help_table(const CLI::App& app) {
   Json options = Json::list(), commands = Json::list();
   for (const std::string& group : groups(app))
     options.push_back({{"group", heading(group)}, {"options", options_json(options_of(app, group))}});
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    commands.push_back(help_table(*command));
+  for (const CLI::App* command : app.get_subcommands(is_shown)) commands.push_back(help_table(*command));
   return {{"name", command_words(app)}, {"description", app.get_description()},
           {"group", app.get_group()},   {"usage", usage(app, command_words(app))},
           {"footer", app.get_footer()}, {"arguments", options_json(positionals(app))},

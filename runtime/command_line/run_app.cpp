@@ -64,14 +64,14 @@ bool ends_with_and_drop(std::string& text, const std::string& ending) {
 // Returns the message for arguments that no option accepts.
 std::string extra_text(const CLI::App& command, const std::vector<std::string>& extras) {
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
+  const std::vector<std::string> commands = command_names(command);
+  if (!commands.empty() && !is_option(extras.front()))
+    return "unknown command '" + extras.front() + "'" + did_you_mean(extras.front(), commands, command);
   const auto option = std::find_if(extras.begin(), extras.end(), is_option);
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
     return "unknown option " + name + did_you_mean(name, option_names(command), command);
   }
-  const std::vector<std::string> commands = command_names(command);
-  if (!commands.empty())
-    return "unknown command '" + extras.front() + "'" + did_you_mean(extras.front(), commands, command);
   return "unexpected argument '" + extras.front() + "'" + see_help(command);
 }
 

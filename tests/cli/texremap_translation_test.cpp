@@ -1,4 +1,6 @@
 // Texture sets between models of whole materials: results compared with the generated header, texel by texel.
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -131,6 +133,36 @@ TEST_CASE("texremap translation: sets of folders are found by the names of their
   CHECK(std::filesystem::exists(session.path("out/shirt_sheen_weight.png")));
 }
 
+TEST_CASE("texremap translation: results of a folder are read again, also an index of refraction") {
+  const Session session;
+  std::filesystem::create_directories(session.path("sets"));
+  const auto make = [&](const std::string& name, const std::vector<std::string>& channels) {
+    session.make("sets/" + name, test_spec(kSide, kSide, channels, OIIO::TypeUInt8), level);
+  };
+  make("car_BaseColor.png", {"R", "G", "B"});
+  make("car_Roughness.png", {"Y"});
+  make("car_Coat.png", {"Y"});
+  make("car_mine.png", {"Y"});
+  const Words words = "convert sets --from blender --to openpbr -o middle --json";
+  const ProcessResult there = require_success(session.texremap(words));
+  CHECK_THAT(there.output, Contains("middle/car_ior.exr") && Contains("car_mine.png"));
+  require_success(
+      session.texremap("convert middle --from openpbr --to usd -o end --input coat_roughness=0.03 "
+                       "--input coat_ior=1.5 --input coat_darkening=0"));
+  const TestImage weight = session.image("end/car_coat_weight.png"),
+                  source = session.image("sets/car_Coat.png");
+  float largest = 0.0f;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) largest = std::max(largest, weight.at(x, y, 0));
+  CHECK(largest > 0.5f);
+
+  // A file of a pattern is recognised, and takes the place of the map of the set.
+  const auto other = require_success(session.texremap(
+      "convert sets --from blender --to openpbr -o other --json --input coat_weight=*_mine.png"));
+  CHECK_FALSE(std::filesystem::exists(session.path("other/car_Coat.png")));
+  CHECK_THAT(other.output, Contains("\"unrecognised_images\":[]"));
+}
+
 TEST_CASE("texremap translation: numbers print the inputs that differ from their defaults") {
   const Session session;
   const Words words =
@@ -146,6 +178,8 @@ TEST_CASE("texremap translation: numbers print the inputs that differ from their
   source.ior = 1.7f;
   const auto expected = materials::UsdPreviewSurface_to_open_pbr_surface(source);
   const auto values = json["values"];
+  CHECK(json["lost"].empty());
+  CHECK(json["expected_error"].is_null());
   CHECK(values["specular_ior"].get<float>() == Approx(expected.specular_ior));
   CHECK(values["coat_weight"].get<float>() == Approx(expected.coat_weight));
   CHECK(values["base_color"][0].get<float>() == Approx(expected.base_color.r));

@@ -39,7 +39,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l base-color -r -
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l metallic -r -F -d 'Metallic of a metallic workflow'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l occlusion -r -F -d 'Ambient occlusion'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l input -r -F -d 'Another input of a whole material, such as coat_weight=coat.png or sheen_color=1,0.9,0.8'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l roughness-encoding -x -a 'alpha roughness exponent glossiness squared' -d 'What roughness maps hold'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l roughness-encoding -x -a 'alpha roughness exponent squared' -d 'What roughness maps contain'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l color-space -x -d 'How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l prefer -x -d 'Of several maps of one parameter, take the map of this role or with this word in its name: gloss, arm, 4k, png'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l names -r -F -d 'More naming conventions for the maps in DIR'

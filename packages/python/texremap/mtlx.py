@@ -54,7 +54,7 @@ def _reader_of(source, folder):
     if ending in _GLTF_ENDINGS:
         return GltfReader(source, folder)
     if ending != ".mtlx":
-        raise Error(f"{source}: is not a .mtlx, .glb or .gltf file", "input")
+        raise Error(f"{source}: is not a .mtlx, .glb or .gltf file (for USD: texremap usd)", "input")
     from ._mtlx import MtlxReader
 
     return MtlxReader(source, folder)

@@ -16,6 +16,9 @@ int run_texremap(int argc, const char* const* argv) noexcept {
   add_index_command(app);
   add_plan_command(app);
   add_merge_reports_command(app);
+  for (const char* name : {"mtlx", "usd"})
+    app.retire_command(
+        name, "is a command of the Python package (pip install '.[images,usd,materialx]' in the clone)");
   app.footer(
       "Example:\n"
       "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"

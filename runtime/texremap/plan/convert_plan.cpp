@@ -122,8 +122,9 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
     for (const float value : *values)
       typed += (typed.empty() ? "" : ",") + number_text(static_cast<double>(value));
     const bool has_meaning = std::ranges::all_of(*values, [](float value) { return value <= 255.0f; });
-    throw usage_error(option + " " + typed + ": values lie between 0 and 1" +
-                      (has_meaning ? " (write " + option + " " + fractions_text(*values) + ")" : ""));
+    const std::string sign = option.starts_with("--input ") ? "=" : " ";
+    throw usage_error(option + sign + typed + ": values lie between 0 and 1" +
+                      (has_meaning ? " (write " + option + sign + fractions_text(*values) + ")" : ""));
   };
   const RoughnessEncoding width = request.convention.value_or(info.source.roughness);
   for (const auto& [parameter, asked] : request.parameters) {
@@ -131,7 +132,9 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
     if (numbers != nullptr && numbers->size() > 1 && !is_color(parameter))
       throw usage_error(parameter_option(parameter) + ": has three values (give one)");
     const bool is_exponent = parameter == Parameter::kRoughness && width == RoughnessEncoding::kExponent;
-    const bool has_other_unit = is_input(parameter);  // an index of refraction, a length
+    const std::string name = plain_name(parameter);
+    const bool is_fraction = name.ends_with("_weight") || name.ends_with("_roughness");
+    const bool has_other_unit = is_input(parameter) && !is_fraction;  // an index of refraction, a length
     const bool is_wide = parameter == Parameter::kSpecular && info.specular.max > 1.0;
     if (!is_exponent && !is_wide && !has_other_unit)
       require(parameter == Parameter::kRoughness && width == RoughnessEncoding::kGlossiness

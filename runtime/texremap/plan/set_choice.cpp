@@ -1,6 +1,8 @@
 #include "texremap/plan/set_choice.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "sets/name_pieces.hpp"
@@ -89,11 +91,20 @@ std::string model_of_set(const FoundSet& set) {
 
 namespace {
 
+// Roles that are inputs of surfaces as well.
+constexpr std::array<std::pair<Role, std::string_view>, 2> kRolesOfInputs = {
+    {{Role::kIor, "ior"}, {Role::kTransmission, "transmission_weight"}}};
+
 std::vector<MapUse> uses_of_input(const FoundSet& set, Parameter parameter) {
   std::vector<MapUse> found;
+  const auto holds = [&](const ChannelMeaning& entry) {
+    return entry.input == parameter || std::ranges::any_of(kRolesOfInputs, [&](const auto& role) {
+             return role.first == entry.role && role.second == parameter_name(parameter);
+           });
+  };
   for (std::size_t i = 0; i < set.maps.size(); ++i)
     for (const ChannelMeaning& entry : set.maps[i].meaning)
-      if (entry.input == parameter) found.push_back({i, entry.channels, entry.role});
+      if (holds(entry)) found.push_back({i, entry.channels, entry.role});
   return found;
 }
 

@@ -113,6 +113,7 @@ class SetJobs {
   }
   fs::path file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const;
   void leave_out_shared();
+  void leave_out_read();
   // Returns the roughness encoding of the source model, if known.
   std::optional<RoughnessEncoding> own_width() const {
     if (workflow_.is_material()) return width_of(*workflow_.source);
@@ -147,6 +148,7 @@ JobList SetJobs::list() {
       for (const fs::path& file : files_of(map)) (void)jobs_.names->take(root_ / file, owner(set));
   for (FoundSet& set : found_.sets) add(std::move(set));
   note_normals();
+  leave_out_read();
   if (!found_.sizes.empty())
     for (Job& job : jobs_.jobs) note_sizes(job);
   if (options_.part) return std::move(jobs_);  // a part cannot report about all sets
@@ -201,6 +203,14 @@ void SetJobs::leave_out_shared() {
   std::erase_if(found_.unrecognised, is_shared);
 }
 
+// Removes files that a pattern of an option gives from the images whose names are not recognised.
+void SetJobs::leave_out_read() {
+  std::set<fs::path> read;
+  for (Job& job : jobs_.jobs)
+    for (const fs::path* file : files_of(std::get<SetWork>(job.work))) read.insert(*file);
+  std::erase_if(jobs_.unrecognised, [&](const fs::path& file) { return read.contains(file); });
+}
+
 bool SetJobs::has_given_width(const FoundSet& set) const {
   if (given_map(Parameter::kRoughness) == nullptr &&
       !is_given(defaults_.parameters.at(Parameter::kRoughness)))
@@ -222,8 +232,11 @@ void SetJobs::add(FoundSet set) {
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
   if (set.state != SetState::kReady) {
+    const bool is_faulty = set.state == SetState::kFaulty;
     for (const std::string& remark : set.remarks)
-      jobs_.skipped.push_back({display_path(root_) + "/" + remark, set.state == SetState::kFaulty});
+      jobs_.skipped.push_back({display_path(root_) + "/" + remark +
+                                   (is_faulty ? "" : " (for sets without this map, use --roughness VALUE)"),
+                               is_faulty});
     return;
   }
   for (const Parameter parameter : workflow_.sources()) {
@@ -384,6 +397,10 @@ bool SetJobs::comes_along(const FoundMap& map) const {
                                      Role::kAlphaWidth, Role::kSpecular,   Role::kSpecularLevel,
                                      Role::kDiffuse,    Role::kBaseColor,  Role::kMetallic};
   if (options_.only_converted || map.is_repeated) return false;
+  const bool is_of_source = std::ranges::any_of(map.meaning, [&](const ChannelMeaning& entry) {
+    return entry.input && workflow_.has_source(*entry.input);
+  });
+  if (workflow_.translation && is_of_source) return false;  // an option gives another map
   return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
     return std::ranges::find(kConverted, entry.role) != kConverted.end();
   });

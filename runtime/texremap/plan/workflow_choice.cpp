@@ -28,8 +28,10 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
            " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
            "--workflows)");
   if (!choice.translation)
-    refuse(options, kNeedsTranslation,
-           ": needs a whole material as both ends (use --to openpbr, or another model of docs/materials.md)");
+    refuse(
+        options, kNeedsTranslation,
+        ": needs openpbr or standard-surface as --from or --to, and blender, gltf, usd or one of both as the "
+        "other end (convert to openpbr first)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because every input is translated (remove this option)");

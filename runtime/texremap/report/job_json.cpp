@@ -53,7 +53,7 @@ Json converter_json(const ChosenConverter& chosen) {
   const ConverterInfo& info = chosen.info();
   Json json = {{"converter", info.id},
                {"path", path_json(chosen.path)},
-               {"expected_error", chosen.path.expected_error},
+               {"expected_error", chosen.workflow.translation ? Json() : Json(chosen.path.expected_error)},
                {"source", info.source.model},
                {"target", info.target.model},
                {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};

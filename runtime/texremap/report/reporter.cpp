@@ -105,9 +105,11 @@ struct ConvertedNumbers {
   bool is_scalar = false;  // JSON shows a number, not a list
 };
 
-void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>& values, bool in_domain) {
+void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>& values, bool in_domain,
+                   const std::vector<std::string>& lost = {}) {
   if (plan.json) {
     Json result = conversion_json(plan);
+    if (plan.sets()->chosen.workflow.translation) result["lost"] = lost;
     for (const ConvertedNumbers& value : values)
       result["values"][value.name] =
           value.channels.size() == 1 && value.is_scalar ? Json(value.channels.front()) : Json(value.channels);
@@ -184,7 +186,7 @@ void print_translated_numbers(const ConvertPlan& plan, const TranslationEffect& 
   if (!plan.quiet && !effect.lost.empty())
     say("warning: no effect in " + target + ": " + joined(effect.lost, ", "));
   if (!plan.quiet && values.empty()) say("note: all inputs of " + target + " have their defaults");
-  print_numbers(plan, values, true);
+  print_numbers(plan, values, true, effect.lost);
 }
 
 }  // namespace
