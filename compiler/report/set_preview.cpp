@@ -123,7 +123,7 @@ class ShownModel {
       texel.alpha = std::max(static_cast<double>(width[i]), kLeastAlpha);
       for (std::size_t c = 0; c < 3; ++c) {
         texel.specular[c] = static_cast<double>(set.rows.at(Parameter::kSpecular)[c][i]);
-        if (const auto& diffuse = set.rows.at(Parameter::kDiffuse); !diffuse.empty())
+        if (const auto& diffuse = set.rows[Parameter::kDiffuse]; !diffuse.empty())
           texel.diffuse[c] = static_cast<double>(diffuse[c][i]);
       }
     }

@@ -99,6 +99,14 @@ TEST_CASE("set preview: a set that does not change looks the same, and Blender's
   REQUIRE(other.notes.size() == 2);
   CHECK_THAT(other.notes[0], Contains("is shown as mitsuba/ggx"));
 
+  // Roughness and specular alone, without a diffuse lobe.
+  std::filesystem::rename(folder.path() / "sets/tile_basecolor.png",
+                          folder.path() / "sets/tile_specular.png");
+  const SetPreview lobe = preview_of(folder, "mitsuba/ward", "mitsuba/as");
+  CHECK(lobe.figures[0].converted.rms < lobe.figures[0].copied->rms);
+  std::filesystem::rename(folder.path() / "sets/tile_specular.png",
+                          folder.path() / "sets/tile_basecolor.png");
+
   const SetPreview across = preview_of(folder, "gltf", "gltf-specgloss");
   CHECK_FALSE(across.figures[0].copied);
   CHECK(across.labels.columns.size() == 2);
