@@ -325,9 +325,8 @@ TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a s
 
 TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workflows, from every source") {
   const Session session;
-  for (const std::string source :
-       {"radiance/plastic --roughness 0", "mujoco --roughness 64", "mtl --roughness 1000",
-        "gltf-specgloss --glossiness 1"}) {
+  for (const std::string source : {"radiance/plastic --roughness 0", "mujoco --roughness 64",
+                                   "mtl --roughness 1000", "gltf-specgloss --glossiness 1"}) {
     const ProcessResult numbers = require_success(
         session.texremap("convert --from " + source + " --to gltf --specular 0 --diffuse 0.7"));
     INFO(source << ": " << numbers.output);
