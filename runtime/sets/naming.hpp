@@ -38,12 +38,12 @@
 // `ignored_words` (optional) are skipped after the word of a map, for example names of color spaces.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -120,7 +120,10 @@ struct ChannelMeaning {
   Role role = Role::kOther;
   std::optional<Parameter> input = {};  // of a surface model, such as coat_weight; the role is then kOther
 
-  auto operator<=>(const ChannelMeaning&) const = default;
+  bool operator==(const ChannelMeaning&) const = default;
+  bool operator<(const ChannelMeaning& other) const {
+    return std::tie(channels, role, input) < std::tie(other.channels, other.role, other.input);
+  }
 };
 
 struct NamingRule {
