@@ -1,5 +1,5 @@
 // This file holds formulas as statements that can be written in every language. Formulas of converters come
-// from emit/converter_formula.hpp, those of whole materials from materials/description.hpp.
+// from emit/converter_formula.hpp. Formulas of whole materials come from materials/description.hpp.
 #pragma once
 
 #include <functional>

@@ -12,7 +12,7 @@ namespace remap {
 namespace {
 
 // This is the step of central differences, as a fraction of alpha or of the range. The truncation error is
-// the square of the step, the rounding error is that of a float divided by the step.
+// the square of the step. The rounding error is the error of a float, divided by the step.
 constexpr double kDifferenceStep = 1e-3;
 // This many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;

@@ -15,7 +15,7 @@ struct Extent {
 };
 Extent extent_of(const Points& positions, Eigen::Index axis);
 
-// Returns the mean position of those `texels` that are finite, or the origin if there are none.
+// Returns the mean position of the finite `texels`, or the origin if no texel is finite.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {

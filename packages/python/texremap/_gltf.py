@@ -273,7 +273,7 @@ class GltfReader:
         primvar = f"st{index}" if index else "st"
         offset, scale = (_numbers(transform, word, plain, place) for word, plain in (("offset", (0.0, 0.0)), ("scale", (1.0, 1.0))))
         rotation = math.degrees(_number(transform, "rotation", 0, place))
-        # The v of glTF grows downwards, that of the others upwards: v' = 1 - v.
+        # glTF counts v from the top, the other formats from the bottom: v' = 1 - v.
         moved = turned(rotation, (0.0, -scale[1]))
         translation = (moved[0] + offset[0], moved[1] - offset[1] + 1)
         return Place(primvar, scale, rotation, tuple(round(number, 9) + 0.0 for number in translation))

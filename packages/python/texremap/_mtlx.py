@@ -97,7 +97,7 @@ class _DocumentNode(Node):
         if not name:
             raise Error(f"{of}: its texture {self.name} has no file", "input")
         folder = os.path.dirname(self.node.getDocument().getSourceUri())
-        path = os.path.join(folder, os.path.dirname(end.getActiveSourceUri()), name)  # that of an included document is relative
+        path = os.path.join(folder, os.path.dirname(end.getActiveSourceUri()), name)  # the path of an included document is relative
         space = end.getActiveColorSpace()
         is_color = self.type in ("color3", "color4") or self.kind == "gltf_colorimage"
         if is_color and space not in (*_LINEAR, *_SRGB):

@@ -1,6 +1,6 @@
 """Networks of nodes of MaterialX and USD: which texture feeds an input, and nodes that feed one.
 
-The nodes are those of a MaterialX document or of a USD stage. Both hold textures with a scale and a bias for each channel.
+The nodes belong to a MaterialX document or to a USD stage. Both hold textures with a scale and a bias for each channel.
 """
 
 import math
