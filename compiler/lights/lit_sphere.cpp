@@ -141,6 +141,19 @@ class PixelSampler {
   std::uint64_t key_;
 };
 
+// Calls visit(half, light, geometry, solid_angle) for each direction of a pixel that is lit. The solid angle
+// is the one of a sample of its half.
+void for_each_sample(const Mixture& mixture, const PixelSampler& sampler, const auto& visit) {
+  for (std::size_t half = 0; half < kHalves; ++half)
+    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
+      for (std::uint32_t i = 0; i < mixture.counts[technique]; ++i) {
+        const Direction light = sampler.direction(technique, half, i);
+        LocalGeometry geometry;
+        if (!is_lit(sampler.normal(), sampler.view(), light, &geometry)) continue;
+        visit(half, light, geometry, 1.0 / mixture.density(geometry));
+      }
+}
+
 // A Rendering holds the data that all pixels share.
 struct Rendering {
   const RadiancePyramid& environments;
@@ -203,20 +216,16 @@ void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::siz
 void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
                  SpherePictures* pictures) {
   std::vector<float> radiance(rendering.environments.channel_count());
-  for (std::size_t half = 0; half < kHalves; ++half)
-    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
-      for (std::uint32_t i = 0; i < rendering.mixture.counts[technique]; ++i) {
-        const Direction light = sampler.direction(technique, half, i);
-        LocalGeometry geometry;
-        if (!is_lit(sampler.normal(), sampler.view(), light, &geometry)) continue;
-        const double solid_angle = 1.0 / rendering.mixture.density(geometry);
+  for_each_sample(
+      rendering.mixture, sampler,
+      [&](std::size_t half, const Direction& light, const LocalGeometry& geometry, double solid_angle) {
         rendering.environments.look_up(light, solid_angle / kHalves, radiance.data());
         for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
           const auto factor = static_cast<float>(reflected(rendering.materials[m], geometry) * solid_angle);
           float* values = pictures->values(m, half, pixel);
           for (std::size_t c = 0; c < radiance.size(); ++c) values[c] += factor * radiance[c];
         }
-      }
+      });
 }
 
 }  // namespace
@@ -310,15 +319,11 @@ void add_light(const RadiancePyramid& environment, const Mixture& mixture, BallP
     if (is_lit(pixel.sampler.normal(), pixel.sampler.view(), lamp.direction, &geometry))
       pixel.add(lamp.flux, 1.0, geometry);
   std::array<float, 3> radiance{};
-  for (std::size_t half = 0; half < kHalves; ++half)
-    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
-      for (std::uint32_t i = 0; i < mixture.counts[technique]; ++i) {
-        const Direction light = pixel.sampler.direction(technique, half, i);
-        if (!is_lit(pixel.sampler.normal(), pixel.sampler.view(), light, &geometry)) continue;
-        const double solid_angle = 1.0 / (mixture.density(geometry) * kHalves);
-        environment.look_up(light, solid_angle, radiance.data());
-        pixel.add(radiance, solid_angle, geometry);
-      }
+  for_each_sample(mixture, pixel.sampler,
+                  [&](std::size_t, const Direction& light, const LocalGeometry& sample, double solid_angle) {
+                    environment.look_up(light, solid_angle / kHalves, radiance.data());
+                    pixel.add(radiance, solid_angle / kHalves, sample);
+                  });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "renderer/image.hpp"
 
@@ -13,6 +14,12 @@ inline constexpr float kSheetBackground = 0.12f;
 
 // Returns a dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
 Image contact_sheet(std::size_t rows, std::size_t columns, int side);
+
+// Returns the side of a cell for pictures of `resolution` pixels, with a margin of a twentieth around each.
+int cell_side(int resolution);
+
+// Returns pixels of a square picture as pixels of its cell, both as row-major indices.
+std::vector<std::uint32_t> pixels_of_cell(std::vector<std::uint32_t> pixels, int resolution);
 
 // Copies a picture to a cell of the sheet. `pixels` are row-major indices into the square, and `colors` three
 // display values for each of them.

@@ -282,7 +282,7 @@ class SheetFiller {
     preview_.specular = options.specular;
     preview_.labels.columns = {"source\n" + fit.source.model, "copied\n" + fit.target.model,
                                "converted\n" + fit.target.model};
-    preview_.sheet = contact_sheet(rows, kColumns, cell());
+    preview_.sheet = contact_sheet(rows, kColumns, cell_side(options.resolution));
   }
 
   void add_rows(const std::string& light, Shape shape, const auto& studio) {
@@ -307,29 +307,18 @@ class SheetFiller {
   // Compares the pictures, and places them in the next row of the sheet.
   void add_pictures(const RowPictures& pictures, PreviewFigure& figure) {
     const std::vector<std::uint32_t> pixels = covered_pixels(pictures[0]);
-    const std::vector<std::uint32_t> places = in_cell(pixels);
+    const std::vector<std::uint32_t> places = pixels_of_cell(pixels, options_.resolution);
     std::array<DisplayedSphere, kColumns> shown;
     for (std::size_t column = 0; column < kColumns; ++column) {
       shown[column] = displayed_sphere(chosen(pictures[column], pixels), pixels, options_.resolution);
-      place_picture(&preview_.sheet, cell(), preview_.figures.size(), column, places,
+      place_picture(&preview_.sheet, cell_side(options_.resolution), preview_.figures.size(), column, places,
                     over_background(pictures[column], pixels, shown[column].colors));
     }
     const auto similarity = [&](const DisplayedSphere& other) {
-      return PreviewSimilarity{sphere_similarity(shown[0], other, pixels, options_.resolution),
-                               rms_difference(shown[0].colors, other.colors)};
+      return preview_similarity(shown[0], other, pixels, options_.resolution);
     };
     figure.copied = similarity(shown[1]);
     figure.converted = similarity(shown[2]);
-  }
-
-  int margin() const { return options_.resolution / 20; }
-  int cell() const { return options_.resolution + 2 * margin(); }
-
-  std::vector<std::uint32_t> in_cell(std::vector<std::uint32_t> pixels) const {
-    const auto side = static_cast<std::uint32_t>(options_.resolution),
-               width = static_cast<std::uint32_t>(cell()), edge = static_cast<std::uint32_t>(margin());
-    for (std::uint32_t& pixel : pixels) pixel = (pixel / side + edge) * width + pixel % side + edge;
-    return pixels;
   }
 
   const Fit& fit_;
@@ -351,6 +340,11 @@ Environment environment_of(const std::string& name_or_file, double exposure) {
 }
 
 }  // namespace
+
+PreviewSimilarity preview_similarity(const DisplayedSphere& source, const DisplayedSphere& other,
+                                     std::span<const std::uint32_t> pixels, int resolution) {
+  return {sphere_similarity(source, other, pixels, resolution), rms_difference(source.colors, other.colors)};
+}
 
 PreviewLight preview_light(const std::string& word, double distance, double exposure) {
   const auto angle = word == "headlight" ? 0.0 : parse_number(word);

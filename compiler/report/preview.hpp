@@ -3,12 +3,15 @@
 // Copying the numbers is the alternative to a conversion.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "lights/environment.hpp"
+#include "lights/lit_sphere.hpp"
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "report/sheet_labels.hpp"
@@ -50,6 +53,9 @@ struct PreviewSimilarity {
   double ssim = 0.0;  // similarity of luma, 1 for equal pictures
   double rms = 0.0;   // error over red, green and blue
 };
+
+PreviewSimilarity preview_similarity(const DisplayedSphere& source, const DisplayedSphere& other,
+                                     std::span<const std::uint32_t> pixels, int resolution);
 
 // A PreviewFigure is one source material, shown in three pictures.
 struct PreviewFigure {

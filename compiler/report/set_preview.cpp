@@ -26,24 +26,31 @@ struct ScaledSet {
   std::size_t count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-// Averages a channel over cells of `step` x `step` texels.
-void add_channel(ImageReader& map, const SetParameter& parameter, std::size_t channel, int step,
-                 const ScaledSet& size, std::vector<float>& sums) {
+// A ScaledChannel receives the means of one channel of a parameter.
+struct ScaledChannel {
+  const SetParameter& parameter;
+  std::size_t channel;
+  std::vector<float>& means;
+};
+
+// Reads a map once, and averages its channels over cells of whole texels.
+void add_means(ImageReader& map, const std::vector<ScaledChannel>& channels, const ScaledSet& size) {
   const ImageLayout& layout = map.layout();
-  const ChannelPlace& place = parameter.channels[channel];
-  std::vector<std::byte> band(layout.row_bytes() * static_cast<std::size_t>(step));
+  const int across = layout.width / size.width, down = layout.height / size.height;
+  std::vector<std::byte> band(layout.row_bytes() * static_cast<std::size_t>(down));
   std::vector<float> line(static_cast<std::size_t>(layout.width));
-  const float share = parameter.factor(channel) / static_cast<float>(step * step);
   for (int row = 0; row < size.height; ++row) {
-    map.read_rows(row * step, step, band.data());
-    for (int inner = 0; inner < step; ++inner) {
-      const auto view = channel_view(band.data() + layout.row_bytes() * static_cast<std::size_t>(inner),
-                                     layout, place.channel);
-      load_linear(parameter.transfer, view.type, view.first, static_cast<std::size_t>(view.texel_stride),
-                  line.size(), line.data());
-      for (int column = 0; column < size.width * step; ++column)
-        sums[static_cast<std::size_t>(row * size.width + column / step)] +=
-            share * line[static_cast<std::size_t>(column)];
+    map.read_rows(row * down, down, band.data());
+    for (const auto& [parameter, channel, means] : channels) {
+      const float share = parameter.factor(channel) / static_cast<float>(across * down);
+      const auto view = channel_view(band.data(), layout, parameter.channels[channel].channel);
+      for (std::size_t inner = 0; inner < static_cast<std::size_t>(down); ++inner) {
+        load_linear(parameter.transfer, view.type, at(view, 0, inner),
+                    static_cast<std::size_t>(view.texel_stride), line.size(), line.data());
+        for (int column = 0; column < size.width * across; ++column)
+          means[static_cast<std::size_t>(row * size.width + column / across)] +=
+              share * line[static_cast<std::size_t>(column)];
+      }
     }
   }
 }
@@ -52,6 +59,7 @@ ScaledSet scaled_set(TextureSet& set, int side) {
   const ImageLayout& layout = set.maps[set.first_map()].layout();
   const int step = std::max(1, std::max(layout.width, layout.height) / side);
   ScaledSet scaled{std::max(1, layout.width / step), std::max(1, layout.height / step), {}};
+  std::map<std::size_t, std::vector<ScaledChannel>> of_maps;
   for (const auto& [parameter, values] : set.parameters) {
     const std::size_t channels = is_color(parameter) ? 3 : 1;
     auto& rows = scaled.rows[parameter];
@@ -59,12 +67,12 @@ ScaledSet scaled_set(TextureSet& set, int side) {
     for (std::size_t c = 0; c < channels; ++c) {
       const std::size_t own = std::min(c, values.channel_count() - 1);
       if (values.is_map())
-        add_channel(set.maps[values.channels[own].map], values, own,
-                    std::min({step, layout.width, layout.height}), scaled, rows[c]);
+        of_maps[values.channels[own].map].push_back({values, own, rows[c]});
       else
         std::ranges::fill(rows[c], values.constants[own] * values.factor(own));
     }
   }
+  for (const auto& [map, channels] : of_maps) add_means(set.maps[map], channels, scaled);
   return scaled;
 }
 
@@ -171,7 +179,8 @@ class SetSheet {
       preview_.notes.push_back("layers over the base, such as coats and sheen, are not shown");
     for (const Job& job : plan.list.jobs)
       if (jobs_.size() < options.most_sets) jobs_.push_back(&job);
-    preview_.sheet = contact_sheet(jobs_.size(), preview_.labels.columns.size(), cell());
+    preview_.sheet =
+        contact_sheet(jobs_.size(), preview_.labels.columns.size(), cell_side(options.resolution));
   }
 
   SetPreview filled() {
@@ -191,9 +200,6 @@ class SetSheet {
     if (model != shown.name() && std::ranges::find(preview_.notes, text) == preview_.notes.end())
       preview_.notes.push_back(text);
   }
-  int margin() const { return options_.resolution / 20; }
-  int cell() const { return options_.resolution + 2 * margin(); }
-
   void add_row(std::size_t row) {
     const Job& job = *jobs_[row];
     TextureSet set = open_texture_set(std::get<SetWork>(job.work).request);
@@ -219,17 +225,12 @@ class SetSheet {
     std::vector<DisplayedSphere> shown;
     for (const auto& picture : render_textured(light_, balls, sampling))
       shown.push_back(displayed_sphere(picture, pixels_, options_.resolution));
-    std::vector<std::uint32_t> places = pixels_;
-    for (std::uint32_t& pixel : places) {
-      const auto side = static_cast<std::uint32_t>(options_.resolution),
-                 edge = static_cast<std::uint32_t>(margin());
-      pixel = (pixel / side + edge) * static_cast<std::uint32_t>(cell()) + pixel % side + edge;
-    }
+    const std::vector<std::uint32_t> places = pixels_of_cell(pixels_, options_.resolution);
     for (std::size_t column = 0; column < shown.size(); ++column)
-      place_picture(&preview_.sheet, cell(), row, column, places, shown[column].colors);
+      place_picture(&preview_.sheet, cell_side(options_.resolution), row, column, places,
+                    shown[column].colors);
     const auto similarity = [&](const DisplayedSphere& other) {
-      return PreviewSimilarity{sphere_similarity(shown[0], other, pixels_, options_.resolution),
-                               rms_difference(shown[0].colors, other.colors)};
+      return preview_similarity(shown[0], other, pixels_, options_.resolution);
     };
     SetFigure figure{job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename()),
                      std::nullopt, similarity(shown.back())};

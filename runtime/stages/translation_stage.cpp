@@ -102,10 +102,11 @@ class TranslationStage final : public Stage {
       }
       channel += input.channels;
     }
+    const SurfaceLink from = link_of(translation_.source), to = link_of(translation_.target);
     Values in = defaults_, out;
     for (std::size_t i = 0; i < block.size(); ++i) {
       for (const auto& source : sources) in[source.channel] = source.values[i];
-      translation_.run(in.data(), out.data());
+      to.from_hub(from.to_hub(in.data()), out.data());
       for (const auto& target : targets) target.values[i] = out[target.channel];
     }
     return 0;
@@ -132,7 +133,7 @@ bool differ(const float* a, const float* b, std::size_t count) {
   return !std::equal(a, a + count, b, [](float x, float y) { return std::abs(x - y) <= kSame; });
 }
 
-// Returns the names of target inputs whose values differ between `results` and `others`, or within `results`.
+// A Probing translates random materials, and compares the results.
 class Probing {
  public:
   Probing(const SurfaceTranslation& translation, const GivenInputs& given) : translation_(translation) {

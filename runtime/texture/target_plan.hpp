@@ -66,7 +66,6 @@ struct TargetChoice {
   Layout layout = as_inputs();
   // The stored values of these stay unchanged. A result that would repeat a file becomes a copy of it.
   std::vector<Parameter> unchanged;
-  bool keeps_values = true;  // false if invalid values are replaced
   // These have values that integers cannot hold. New files of them are EXR.
   std::vector<Parameter> wide;
   std::vector<CopiedFile> copies;

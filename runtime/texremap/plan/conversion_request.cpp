@@ -311,7 +311,7 @@ void apply(const TranslationEffect& effect, TargetChoice& choice) {
     return std::ranges::find(effect.written, parameter) == effect.written.end() &&
            choice.layout.file_with(parameter) == nullptr;
   });
-  if (choice.keeps_values) choice.unchanged = effect.unchanged;
+  choice.unchanged = effect.unchanged;
   choice.wide = effect.wide;
 }
 
@@ -337,8 +337,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (options.only) choice.parameters = {*options.only};
-  choice.keeps_values = options.bad_texels == BadTexels::kKeep;
-  if (workflow.changes_nothing && choice.keeps_values) choice.unchanged = choice.parameters;
+  if (workflow.changes_nothing) choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
                                         colors_among(choice.parameters), "is written");
   require_encoding(options, choice);

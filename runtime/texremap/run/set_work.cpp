@@ -301,6 +301,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
       throw usage_error(report.inputs.front().string() + ": no input of " + chosen_.info().target.model +
                         " depends on the maps (nothing to write; numbers alone are printed)");
   }
+  if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
   const RoughnessEncoding width =
       written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
