@@ -1,4 +1,6 @@
 // This file is `remapc preview`, which compares a source with its conversion, as pictures and figures.
+#include "report/preview.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <iomanip>
@@ -16,8 +18,9 @@
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "renderer/image_file.hpp"
+#include "look/image_file.hpp"
 #include "report/set_preview.hpp"
+#include "texremap/plan/asset_formats.hpp"
 #include "worker/renderer_options.hpp"
 
 namespace remap {
@@ -36,7 +39,7 @@ struct PreviewCommand {
   RendererOptions renderers;
 };
 
-Json similarity_json(const PreviewSimilarity& similarity) {
+Json similarity_json(const PictureError& similarity) {
   return {{"ssim", similarity.ssim}, {"rms", similarity.rms}};
 }
 
@@ -55,7 +58,7 @@ void print(const PreviewFigure& figure) {
   std::cout << std::left << std::setw(12) << figure.light << std::setw(8) << shape_name(figure.shape)
             << std::defaultfloat << std::setprecision(3) << std::setw(8) << figure.alpha << std::fixed
             << std::setprecision(4) << std::setw(11) << figure.target_alpha;
-  for (const PreviewSimilarity& similarity : {figure.copied, figure.converted})
+  for (const PictureError& similarity : {figure.copied, figure.converted})
     std::cout << std::setprecision(4) << std::setw(8) << similarity.ssim << std::setprecision(2)
               << std::setw(11) << 100.0 * similarity.rms;
   std::cout << (figure.in_domain ? "" : "outside the domain") << "\n";
@@ -105,12 +108,12 @@ Json figure_json(const SetFigure& figure) {
           {"converted", similarity_json(figure.converted)}};
 }
 
-void print(const SetFigure& figure) {
-  const auto text = [](const PreviewSimilarity& of) {
+void print(const SetFigure& figure, const std::string& copied) {
+  const auto text = [](const PictureError& of) {
     return "error " + fixed(100.0 * of.rms, 2) + " %, SSIM " + fixed(of.ssim, 4);
   };
   std::cout << figure.name << ": converted " << text(figure.converted)
-            << (figure.copied ? "; numbers copied " + text(*figure.copied) : "") << "\n";
+            << (figure.copied ? "; " + copied + " " + text(*figure.copied) : "") << "\n";
 }
 
 // Resolves the conversion as `texremap convert` does, and writes nothing.
@@ -138,11 +141,13 @@ void run_sets(const Command& given, const PreviewCommand& command) {
     throw usage_error("--light: texture sets need an environment (use sky, overcast, studio, or a file)");
   SetPreviewOptions options;
   options.light = std::get<Environment>(light.light);
-  options.source = command.from.word();
-  options.target = command.to.word();
   if (given.count("--resolution") > 0) options.resolution = command.options.resolution;
   if (given.count("--directions") > 0) options.directions = command.options.directions;
   const ConvertPlan plan = plan_of(command);
+  options.source = !command.from.empty()    ? command.from.word()
+                   : plan.sets() == nullptr ? "as its file says"
+                                            : plan.conversion.source;
+  options.target = command.to.empty() ? plan.conversion.target : command.to.word();
   const SetPreview preview = [&] {
     ShareProgress progress("preview", command.subject);
     options.progress = std::ref(progress);
@@ -152,7 +157,7 @@ void run_sets(const Command& given, const PreviewCommand& command) {
   if (!command.output.empty())
     write_png(command.output, command.bare ? preview.sheet : labelled(preview.sheet, preview.labels));
   if (!command.json) {
-    for (const SetFigure& figure : preview.figures) print(figure);
+    for (const SetFigure& figure : preview.figures) print(figure, preview.copied_title);
     return;
   }
   Json json = {
@@ -167,7 +172,8 @@ void run(const Command& given, const PreviewCommand& command) {
   watch_interruptions();
   require_new(command.output, command.force);
   std::error_code ignored;
-  if (!command.to.empty() || std::filesystem::is_directory(command.subject, ignored))
+  if (!command.to.empty() || is_asset_name(command.subject) ||
+      std::filesystem::is_directory(command.subject, ignored))
     return run_sets(given, command);
   const Fit fit = find_fit(command.subject, command.fit_folder);
   PreviewOptions options = with_lights(given, command, fit);
@@ -188,13 +194,14 @@ void run(const Command& given, const PreviewCommand& command) {
 
 void add_preview_command(Command& app) {
   Command* command = app.add_subcommand(
-      "preview", "Render a source and its conversion side by side, for a fit or your texture sets",
+      "preview", "Render a source and its conversion side by side, for a fit or your own material",
       kLookStage);
   PreviewCommand& options =
       set_work<PreviewCommand>(*command, [command](const PreviewCommand& given) { run(*command, given); });
   command
       ->add_option("subject", options.subject,
-                   "Fit: file, or id in the folder of fits; or a folder of texture sets")
+                   "Fit: file, or id in the folder of fits; or your material: a folder of texture sets, or a "
+                   "glTF file")
       ->required();
   command->option_group("Input");
   command->add_option("--from MODEL", options.from, model_name(),
@@ -248,6 +255,7 @@ void add_preview_command(Command& app) {
   command->footer(
       "Example:\n"
       "  remapc preview textures --from blender --to unity -o sheet.png\n"
+      "  remapc preview model.glb -o sheet.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,sky -o preview.png");

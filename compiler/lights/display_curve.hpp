@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "renderer/image_similarity.hpp"
+#include "look/image_similarity.hpp"
 
 namespace remap {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "look/brdf_models.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "lights/environment.hpp"
-#include "lights/lit_sphere.hpp"
-#include "renderer/image.hpp"
+#include "look/environment.hpp"
+#include "look/image.hpp"
+#include "look/lit_sphere.hpp"
 
 namespace remap {
 

@@ -8,7 +8,7 @@
 
 #include "lights/display_curve.hpp"
 #include "lights/lobe_pictures.hpp"
-#include "renderer/brdf.hpp"
+#include "look/brdf_models.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {

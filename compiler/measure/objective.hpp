@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "look/scene.hpp"
 #include "remap/model.hpp"
-#include "renderer/scene.hpp"
 
 namespace remap {
 

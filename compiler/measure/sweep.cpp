@@ -8,6 +8,7 @@
 
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "look/image_similarity.hpp"
 #include "measure/block_match.hpp"
 #include "measure/family_probe.hpp"
 #include "measure/joint_match.hpp"
@@ -16,7 +17,6 @@
 #include "measure/target_bank.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "renderer/image_similarity.hpp"
 #include "table/domain.hpp"
 
 namespace remap {

@@ -10,75 +10,14 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "look/brdf_models.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "renderer/brdf.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
 namespace {
-
-// A Reflectance decides what the parameters other than width and diffuse mean for the lobe.
-enum class Reflectance {
-  kScale,         // `specular`, 0 to 1
-  kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved
-  kSchlick,       // `f0`, with Schlick's Fresnel
-  kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
-  kDielectric,    // `ior`: exact Fresnel of a dielectric
-  kConductor,     // `eta`, `k`: exact Fresnel of a conductor
-  kMetallic,  // `base_color`, `metallic`, `specular`: diffuse and Schlick's F0 by equation (2) of the paper
-};
-
-// Below 1e-4 a lobe is a mirror that no picture of the sweep resolves.
-constexpr Range kAlphaRange{1e-4, 1.0};
-
-// This range is for exponents of 0.1 to 10,000: alpha is the square root of 2 / (n + 2).
-constexpr Range kExponentAlphas{0.014140721622265262, 0.9759000729485333};
-
-struct BuiltinModel {
-  const char* name;
-  Brdf brdf;
-  Reflectance reflectance;
-  RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
-  Range alpha = kAlphaRange;
-};
-
-// Names are the hub's. `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
-constexpr std::array kModels = {
-    BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
-    BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
-    BuiltinModel{"mitsuba/ward-balanced", Brdf::kWardBalanced, Reflectance::kScale},
-    BuiltinModel{"mitsuba/ward-conserving", Brdf::kWard, Reflectance::kTrimmedScale},
-    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Reflectance::kScale, RoughnessEncoding::kExponent},
-    BuiltinModel{"mitsuba/beckmann", Brdf::kBeckmann, Reflectance::kSchlick},
-    BuiltinModel{"mitsuba/ggx", Brdf::kGgx, Reflectance::kSchlick},
-    BuiltinModel{"mitsuba/as", Brdf::kAs, Reflectance::kSchlick},
-    BuiltinModel{"mitsuba/beckmann-plain", Brdf::kBeckmann, Reflectance::kScale},
-    BuiltinModel{"mitsuba/ggx-plain", Brdf::kGgx, Reflectance::kScale},
-    BuiltinModel{"mitsuba/as-plain", Brdf::kAs, Reflectance::kScale},
-    BuiltinModel{"mitsuba/beckmann-ior", Brdf::kBeckmann, Reflectance::kSchlickIor},
-    BuiltinModel{"mitsuba/ggx-ior", Brdf::kGgx, Reflectance::kSchlickIor},
-    BuiltinModel{"mitsuba/as-ior", Brdf::kAs, Reflectance::kSchlickIor},
-    BuiltinModel{"mitsuba/beckmann-dielectric", Brdf::kBeckmann, Reflectance::kDielectric},
-    BuiltinModel{"mitsuba/ggx-dielectric", Brdf::kGgx, Reflectance::kDielectric},
-    BuiltinModel{"mitsuba/as-dielectric", Brdf::kAs, Reflectance::kDielectric},
-    BuiltinModel{"mitsuba/beckmann-conductor", Brdf::kBeckmann, Reflectance::kConductor},
-    BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
-    BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
-    BuiltinModel{"mitsuba/beckmann-metallic", Brdf::kBeckmann, Reflectance::kMetallic,
-                 RoughnessEncoding::kRoughness},
-    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessEncoding::kRoughness},
-    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessEncoding::kRoughness},
-    BuiltinModel{"legacy/phong", Brdf::kPlainPhong, Reflectance::kScale, RoughnessEncoding::kExponent,
-                 kExponentAlphas},
-    BuiltinModel{"legacy/blinn-phong", Brdf::kPlainBlinn, Reflectance::kScale, RoughnessEncoding::kExponent,
-                 kExponentAlphas},
-    BuiltinModel{"legacy/phong-normalised", Brdf::kPhong, Reflectance::kScale, RoughnessEncoding::kExponent,
-                 kExponentAlphas},
-    BuiltinModel{"legacy/blinn-phong-normalised", Brdf::kBlinn, Reflectance::kScale,
-                 RoughnessEncoding::kExponent, kExponentAlphas},
-};
 
 // Dielectrics range from no boundary to germanium in the infrared. Conductors range over the measured values
 // of visible light, including the 0 that a projection into a color space gives.
@@ -126,13 +65,6 @@ ModelDescription describe(const BuiltinModel& model) {
   return description;
 }
 
-// Returns null for an unknown name.
-const BuiltinModel* find_builtin(const std::string& name) {
-  const auto model = std::find_if(kModels.begin(), kModels.end(),
-                                  [&](const BuiltinModel& candidate) { return name == candidate.name; });
-  return model == kModels.end() ? nullptr : &*model;
-}
-
 // A LitSample is one lit sample of the picture: its pixel, its directions, and cos_light / distance^2 divided
 // by the number of samples in the pixel.
 struct LitSample {
@@ -178,7 +110,7 @@ class BuiltinRenderer final : public Renderer {
 
   std::vector<ModelDescription> models() const override {
     std::vector<ModelDescription> descriptions;
-    for (const BuiltinModel& model : kModels) descriptions.push_back(describe(model));
+    for (const BuiltinModel& model : builtin_models()) descriptions.push_back(describe(model));
     return descriptions;
   }
 
@@ -284,7 +216,7 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   require_scene(scene);
   const ModelDescription description = model(material.model);
   require_material(material, description);
-  const BuiltinModel* model = find_builtin(material.model);
+  const BuiltinModel* model = find_builtin_model(material.model);
   const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
   const double alpha = to_alpha(model->roughness, material.parameters.at(roughness).front());
 
@@ -308,44 +240,6 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
 }
 
 }  // namespace
-
-bool is_linear_lobe(const std::string& name) {
-  const BuiltinModel* model = find_builtin(name);
-  return model != nullptr &&
-         (model->reflectance == Reflectance::kScale || model->reflectance == Reflectance::kSchlick);
-}
-
-BrdfModel builtin_brdf(const std::string& name) {
-  BuiltinRenderer().model(name);
-  const BuiltinModel* model = find_builtin(name);
-  if (model->reflectance == Reflectance::kScale) return {model->brdf, Fresnel::kNone};
-  if (model->reflectance == Reflectance::kSchlick) return {model->brdf, Fresnel::kSchlick};
-  throw Error(
-      ErrorKind::kUsage,
-      name + ": its specular is neither a scale nor F0 (choose a model with `specular` from 0 to 1 or `f0`)");
-}
-
-MapModel builtin_map_model(const std::string& name) {
-  BuiltinRenderer().model(name);
-  const BuiltinModel* model = find_builtin(name);
-  switch (model->reflectance) {
-    case Reflectance::kScale:
-    case Reflectance::kTrimmedScale:
-      return {{model->brdf, Fresnel::kNone}, false};
-    case Reflectance::kSchlick:
-    case Reflectance::kSchlickIor:
-    case Reflectance::kMetallic:
-      return {{model->brdf, Fresnel::kSchlick}, false};
-    case Reflectance::kDielectric:
-      return {{model->brdf, Fresnel::kNone}, true};
-    case Reflectance::kConductor:
-      break;
-  }
-  throw Error(ErrorKind::kUsage,
-              name +
-                  ": F0 does not determine the index of a conductor (choose a model with a "
-                  "scale, F0 or the index of a dielectric)");
-}
 
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }
 

@@ -36,9 +36,4 @@ PolarisedReflectance fresnel_conductor(double cosine, double eta, double k) {
   return {p, s};
 }
 
-double schlick_weight(double cosine) {
-  const double m = 1.0 - cosine;
-  return m * m * m * m * m;
-}
-
 }  // namespace remap

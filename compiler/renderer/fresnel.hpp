@@ -30,7 +30,4 @@ PolarisedReflectance fresnel_dielectric(double cosine, double ior);
 // and Wolf 1999, section 14.2). At k = 0 it equals fresnel_dielectric.
 PolarisedReflectance fresnel_conductor(double cosine, double eta, double k);
 
-// Returns (1 - cosine)^5, the weight of white in Schlick's Fresnel (1994): F = F0 + (1 - F0) weight.
-double schlick_weight(double cosine);
-
 }  // namespace remap

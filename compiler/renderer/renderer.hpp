@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "look/image.hpp"
+#include "look/scene.hpp"
 #include "lower/fit.hpp"
 #include "remap/model.hpp"
-#include "renderer/image.hpp"
-#include "renderer/scene.hpp"
 
 namespace remap {
 

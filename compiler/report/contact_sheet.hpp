@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 
 namespace remap {
 

@@ -9,12 +9,13 @@
 
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "lights/lit_sphere.hpp"
+#include "look/brdf_models.hpp"
+#include "look/image_similarity.hpp"
+#include "look/lit_sphere.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/parameter_roles.hpp"
 #include "measure/sweep.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
 #include "table/light.hpp"
 
@@ -213,7 +214,8 @@ class EnvironmentStudio {
   }
 
  private:
-  // The map is coarse, because each spot of light costs as much as a sample, and a finer map has more spots.
+  // The map is coarse, because each spot of light costs as much as a sample, and a finer map has more
+  // spots.
   static constexpr int kMapRows = 64;
 
   static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
@@ -315,7 +317,7 @@ class SheetFiller {
                     over_background(pictures[column], pixels, shown[column].colors));
     }
     const auto similarity = [&](const DisplayedSphere& other) {
-      return preview_similarity(shown[0], other, pixels, options_.resolution);
+      return picture_error(shown[0], other, pixels, options_.resolution);
     };
     figure.copied = similarity(shown[1]);
     figure.converted = similarity(shown[2]);
@@ -340,11 +342,6 @@ Environment environment_of(const std::string& name_or_file, double exposure) {
 }
 
 }  // namespace
-
-PreviewSimilarity preview_similarity(const DisplayedSphere& source, const DisplayedSphere& other,
-                                     std::span<const std::uint32_t> pixels, int resolution) {
-  return {sphere_similarity(source, other, pixels, resolution), rms_difference(source.colors, other.colors)};
-}
 
 PreviewLight preview_light(const std::string& word, double distance, double exposure) {
   const auto angle = word == "headlight" ? 0.0 : parse_number(word);

@@ -10,8 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "lights/environment.hpp"
-#include "lights/lit_sphere.hpp"
+#include "look/environment.hpp"
+#include "look/lit_sphere.hpp"
+#include "look/material_looks.hpp"
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "report/sheet_labels.hpp"
@@ -47,16 +48,6 @@ struct PreviewOptions {
       progress;  // receives the finished fraction, 0 to 1; any thread; may throw
 };
 
-// A PreviewSimilarity compares a picture with the source's, in display values (sRGB) over the pixels that
-// show the shape. Under a point light, a white diffuse surface facing it at the closest point is white.
-struct PreviewSimilarity {
-  double ssim = 0.0;  // similarity of luma, 1 for equal pictures
-  double rms = 0.0;   // error over red, green and blue
-};
-
-PreviewSimilarity preview_similarity(const DisplayedSphere& source, const DisplayedSphere& other,
-                                     std::span<const std::uint32_t> pixels, int resolution);
-
 // A PreviewFigure is one source material, shown in three pictures.
 struct PreviewFigure {
   std::string light;
@@ -65,7 +56,7 @@ struct PreviewFigure {
   double target_alpha = 0.0;            // canonical
   std::vector<double> target_specular;  // in the fit's unit
   bool in_domain = true;                // whether the fit covers the source material
-  PreviewSimilarity copied, converted;
+  PictureError copied, converted;
 };
 
 struct Preview {

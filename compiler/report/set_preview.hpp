@@ -1,5 +1,5 @@
-// This file previews the conversion of texture sets: the maps on a ball in the source's shading, then in the
-// target's shading with the same numbers and with converted numbers.
+// This file previews the conversion of texture sets and glTF files: their maps on a ball in the source's
+// shading, then in the target's shading with the same numbers and with converted numbers.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "lights/environment.hpp"
-#include "report/preview.hpp"
+#include "look/environment.hpp"
+#include "look/image.hpp"
+#include "look/material_looks.hpp"
 #include "report/sheet_labels.hpp"
 #include "texremap/plan/convert_plan.hpp"
 
@@ -19,27 +20,28 @@ struct SetPreviewOptions {
   std::string source, target;  // names above the pictures
   int resolution = 440;        // width and height of each ball, pixels
   int directions = 160;        // samples of the light for each pixel
-  std::size_t most_sets = 4;
+  std::size_t most_materials = 4;
   std::function<void(double share)> progress;  // receives the finished fraction, 0 to 1; any thread
 };
 
-// A SetFigure compares the pictures of one set with the source's picture.
+// A SetFigure compares the pictures of one material with the source's picture.
 struct SetFigure {
   std::string name;
-  std::optional<PreviewSimilarity> copied;  // none if source and target have other parameters
-  PreviewSimilarity converted;
+  std::optional<PictureError> copied;  // none if source and target have other parameters
+  PictureError converted;
 };
 
 struct SetPreview {
   std::vector<SetFigure> figures;
   std::vector<std::string> notes;  // models that another model of the built-in renderer stands for
-  Image sheet;                     // a row for each set; columns: source, numbers copied, numbers converted
+  std::string copied_title;        // what the middle column shows
+  Image sheet;  // a row for each material; columns: source, numbers copied, numbers converted
   SheetLabels labels;
 };
 
-// Previews the first sets of a plan, whose maps are scaled down to the size of the picture. A model that the
-// built-in renderer lacks is shown by the model that a shipped converter matches best to it. Normal maps and
-// opacity are not shown. Throws kInput if a map cannot be read, and kUsage if the plan has no texture set.
+// Previews the first materials of a plan, whose maps are scaled down to the size of the picture
+// (job_looks.hpp). Normal maps and opacity are not shown. Throws kInput if a map cannot be read, and kUsage
+// if the plan has nothing to convert.
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options);
 
 }  // namespace remap

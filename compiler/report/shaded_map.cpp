@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/image_similarity.hpp"
+#include "look/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
 
 namespace remap {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "look/brdf.hpp"
+#include "look/image.hpp"
 #include "remap/warp.hpp"
-#include "renderer/brdf.hpp"
-#include "renderer/image.hpp"
 #include "warp/material.hpp"
 
 namespace remap {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 
 namespace remap {
 

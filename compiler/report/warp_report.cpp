@@ -7,8 +7,8 @@
 
 #include "core/base64.hpp"
 #include "core/files.hpp"
+#include "look/image_file.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_file.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/shaded_map.hpp"
 #include "warp/coordinates.hpp"

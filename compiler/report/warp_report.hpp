@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 #include "warp/texture_material.hpp"
 #include "warp/warp.hpp"
 

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "look/brdf_models.hpp"
+#include "look/image_similarity.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/sweep.hpp"
-#include "renderer/image_similarity.hpp"
 #include "study/golden_section.hpp"
 
 namespace remap {
@@ -65,8 +66,8 @@ constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 // Pictures holds pictures of one material under each environment.
 using Pictures = std::vector<std::vector<float>>;
 
-// Returns the mean RMSE of a target with the pictures dark + specular * (bright - dark). `source` has display
-// values.
+// Returns the mean RMSE of a target with the pictures dark + specular * (bright - dark). `source` has
+// display values.
 double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& bright, double specular) {
   double sum = 0.0;
   std::vector<float> shown;

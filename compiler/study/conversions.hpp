@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lights/environment.hpp"
-#include "lights/lit_sphere.hpp"
-#include "lights/radiance_pyramid.hpp"
+#include "look/environment.hpp"
+#include "look/lit_sphere.hpp"
+#include "look/radiance_pyramid.hpp"
 #include "lower/fit.hpp"
 #include "measure/sweep_options.hpp"
 

@@ -7,9 +7,10 @@
 
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "look/brdf_models.hpp"
+#include "look/image_similarity.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/sheet_labels.hpp"
@@ -42,8 +43,9 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// Returns the mean square sampling error of the difference of two pictures. Each half of the light directions
-// gives one such difference. The error of their mean is half of the difference between the halves.
+// Returns the mean square sampling error of the difference of two pictures. Each half of the light
+// directions gives one such difference. The error of their mean is half of the difference between the
+// halves.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {

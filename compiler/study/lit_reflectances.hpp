@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "lights/lit_sphere.hpp"
-#include "renderer/image.hpp"
+#include "look/image.hpp"
+#include "look/lit_sphere.hpp"
 
 namespace remap {
 

@@ -7,8 +7,8 @@
 #include "build/fit_folder.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "look/image_file.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_file.hpp"
 #include "table/table_file.hpp"
 
 namespace remap {

@@ -8,8 +8,8 @@
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
-#include "lights/environment.hpp"
-#include "lights/lit_sphere.hpp"
+#include "look/environment.hpp"
+#include "look/lit_sphere.hpp"
 
 namespace remap {
 

@@ -5,8 +5,8 @@
 
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "look/image_file.hpp"
 #include "remap/version.hpp"
-#include "renderer/image_file.hpp"
 #include "warp/warp.hpp"
 
 namespace remap {

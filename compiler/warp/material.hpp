@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "look/brdf.hpp"
 #include "remap/warp.hpp"
-#include "renderer/brdf.hpp"
 
 namespace remap {
 

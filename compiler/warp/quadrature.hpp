@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "renderer/brdf.hpp"
+#include "look/brdf.hpp"
 
 namespace remap {
 

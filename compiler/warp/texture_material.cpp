@@ -1,6 +1,7 @@
 #include "warp/texture_material.hpp"
 
 #include "core/errors.hpp"
+#include "look/brdf_models.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/workflow.hpp"
 #include "sets/discovery.hpp"

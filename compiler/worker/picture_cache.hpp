@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 #include "worker/protocol.hpp"
 
 namespace remap {

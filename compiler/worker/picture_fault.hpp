@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 
 namespace remap {
 

@@ -8,9 +8,9 @@
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
+#include "look/scene.hpp"
 #include "lower/fit_fields.hpp"
 #include "remap/error.hpp"
-#include "renderer/scene.hpp"
 
 namespace remap {
 namespace {

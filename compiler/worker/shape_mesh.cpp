@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/files.hpp"
+#include "look/scene.hpp"
 #include "remap/error.hpp"
-#include "renderer/scene.hpp"
 
 namespace remap {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "renderer/scene.hpp"
+#include "look/scene.hpp"
 
 namespace remap {
 

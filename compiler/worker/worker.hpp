@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "look/image.hpp"
 #include "remap/error.hpp"
-#include "renderer/image.hpp"
 #include "worker/child_process.hpp"
 #include "worker/protocol.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
-#include "renderer/scene.hpp"
+#include "look/scene.hpp"
 
 namespace remap {
 namespace {

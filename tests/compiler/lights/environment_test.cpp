@@ -1,5 +1,5 @@
 // This file tests spheres under environments: the maps, their light, and the study that uses them.
-#include "lights/environment.hpp"
+#include "look/environment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,13 @@
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
-#include "lights/lit_sphere.hpp"
+#include "look/brdf_models.hpp"
+#include "look/image_file.hpp"
+#include "look/lit_sphere.hpp"
+#include "look/scene.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_file.hpp"
-#include "renderer/scene.hpp"
 #include "study/environments.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "look/brdf.hpp"
+
 using namespace remap;
 
 namespace {

@@ -1,5 +1,5 @@
 // This file tests the similarity of pictures against scikit-image and closed forms.
-#include "renderer/image_similarity.hpp"
+#include "look/image_similarity.hpp"
 
 #include <cmath>
 #include <limits>

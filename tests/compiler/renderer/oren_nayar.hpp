@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "renderer/image.hpp"
-#include "renderer/scene.hpp"
+#include "look/image.hpp"
+#include "look/scene.hpp"
 
 namespace remap {
 

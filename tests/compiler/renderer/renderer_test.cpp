@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "look/brdf.hpp"
 #include "remap/error.hpp"
-#include "renderer/brdf.hpp"
 #include "renderer/fresnel.hpp"
 
 using namespace remap;

@@ -1,5 +1,5 @@
 // This file tests the sweep scene against plain geometry.
-#include "renderer/scene.hpp"
+#include "look/scene.hpp"
 
 #include <cmath>
 

@@ -42,7 +42,7 @@ TEST_CASE("preview: the identity looks the same under every light, on every shap
   const Preview preview = preview_of(identity(), small_preview({"45", "studio"}));
   REQUIRE(preview.figures.size() == 6);
   for (const PreviewFigure& figure : preview.figures) {
-    for (const PreviewSimilarity& similarity : {figure.copied, figure.converted}) {
+    for (const PictureError& similarity : {figure.copied, figure.converted}) {
       CHECK(similarity.ssim == Approx(1.0).margin(1e-6));
       CHECK(similarity.rms < 1e-6);
     }
@@ -92,7 +92,7 @@ TEST_CASE("preview: shows the domain by default") {
 
 TEST_CASE("preview: a larger error of the conversion gives less similar pictures; copying is no part of it") {
   for (const std::string light : {"45", "sky"}) {
-    PreviewSimilarity last{1.0, 0.0};
+    PictureError last{1.0, 0.0};
     for (const double scale : {1.1, 1.4, 2.0}) {
       const Preview preview =
           preview_of(scaled_fit("mitsuba/ggx", "mitsuba/ggx", scale), small_preview({light}));

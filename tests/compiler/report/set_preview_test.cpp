@@ -1,11 +1,13 @@
 // Previews of texture sets: balls of uniform maps equal the spheres of numbers, maps lie on the ball as they
 // are written, and the figures follow from the conversion.
+#include "report/preview.hpp"
 #include "report/set_preview.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "lights/lit_sphere.hpp"
-#include "renderer/scene.hpp"
+#include "look/brdf_models.hpp"
+#include "look/lit_sphere.hpp"
+#include "look/scene.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 

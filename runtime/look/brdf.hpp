@@ -3,8 +3,6 @@
 // of the light.
 #pragma once
 
-#include <string>
-
 namespace remap {
 
 // A LocalGeometry holds directions at a surface point, reduced to the cosines that isotropic models need.
@@ -51,28 +49,11 @@ struct BrdfModel {
   bool operator==(const BrdfModel&) const = default;
 };
 
-// Returns the built-in model `name`, for callers whose lights are not in a Scene. Throws kUsage for an
-// unknown name (with the closest), and for a model whose specular is neither a scale nor F0.
-BrdfModel builtin_brdf(const std::string& name);
-
-// Returns true if builtin_brdf() knows the model and its specular is a scale or F0.
-bool is_linear_lobe(const std::string& name);
-
-// A MapModel is a model whose specular map holds a scale or F0. `lobe` is the model itself if reflectance is
-// linear in that value. Otherwise `lobe` is a perfect mirror's lobe, to be multiplied by the exact Fresnel
-// reflectance of a dielectric with the map's F0.
-struct MapModel {
-  BrdfModel lobe;
-  bool is_dielectric = false;
-};
-
-// Returns the built-in model `name` for maps with values of 0 to 1. For a model with an index of refraction,
-// the map holds F0. Throws kUsage for an unknown name (with the closest), and for conductors, because F0 does
-// not determine their index.
-MapModel builtin_map_model(const std::string& name);
-
 // Returns the lobe of a perfect mirror: reflectance without Fresnel.
 double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
+
+// Returns (1 - cosine)^5, the weight of white in Schlick's Fresnel (1994): F = F0 + (1 - F0) weight.
+double schlick_weight(double cosine);
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 

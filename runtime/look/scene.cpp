@@ -1,4 +1,4 @@
-#include "renderer/scene.hpp"
+#include "look/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ SurfacePoint along(const SurfacePoint& origin, const SurfacePoint& direction, do
   return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
 }
 
-SurfacePoint normalised(const SurfacePoint& v) {
+SurfacePoint unit_vector(const SurfacePoint& v) {
   const double scale = 1.0 / length(v);
   return {v.x * scale, v.y * scale, v.z * scale};
 }
@@ -57,13 +57,13 @@ double march(const SurfacePoint& origin, const SurfacePoint& direction, double s
 
 bool torus_point(int resolution, double column, double row, SurfaceHit* hit) {
   const SurfacePoint camera = {0.0, 0.0, kCameraDistance};
-  const SurfacePoint direction = normalised(camera_ray(resolution, column, row));
+  const SurfacePoint direction = unit_vector(camera_ray(resolution, column, row));
   const double t = march(camera, direction, kCameraDistance - 1.0, kCameraDistance + 1.0);
   if (t < 0.0) return false;
   hit->position = along(camera, direction, t);
   const SurfacePoint middle = tube_middle(hit->position);
   hit->normal =
-      normalised({hit->position.x - middle.x, hit->position.y - middle.y, hit->position.z - middle.z});
+      unit_vector({hit->position.x - middle.x, hit->position.y - middle.y, hit->position.z - middle.z});
   return true;
 }
 
@@ -128,7 +128,7 @@ bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light) 
   if (shape == Shape::kSphere) return false;
   const SurfacePoint origin = along(hit.position, hit.normal, kShadowOffset);
   const SurfacePoint way = {light.x - origin.x, light.y - origin.y, light.z - origin.z};
-  return march(origin, normalised(way), 0.0, length(way)) >= 0.0;
+  return march(origin, unit_vector(way), 0.0, length(way)) >= 0.0;
 }
 
 std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "lights/environment.hpp"
+#include "look/environment.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "renderer/image_file.hpp"
+#include "look/image_file.hpp"
 
 #include <algorithm>
 #include <array>

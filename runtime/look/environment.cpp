@@ -1,4 +1,4 @@
-#include "lights/environment.hpp"
+#include "look/environment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/number_text.hpp"
+#include "look/image_file.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_file.hpp"
 
 namespace remap {
 namespace {

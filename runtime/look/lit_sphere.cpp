@@ -1,4 +1,4 @@
-#include "lights/lit_sphere.hpp"
+#include "look/lit_sphere.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/parallel.hpp"
+#include "look/image_similarity.hpp"
+#include "look/scene.hpp"
 #include "remap/error.hpp"
-#include "renderer/image_similarity.hpp"
-#include "renderer/scene.hpp"
 
 namespace remap {
 namespace {

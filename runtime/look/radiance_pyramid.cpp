@@ -1,4 +1,4 @@
-#include "lights/radiance_pyramid.hpp"
+#include "look/radiance_pyramid.hpp"
 
 #include <algorithm>
 #include <cmath>

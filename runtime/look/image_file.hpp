@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image.hpp"
+#include "look/image.hpp"
 
 namespace remap {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "lights/radiance_pyramid.hpp"
-#include "renderer/brdf.hpp"
+#include "look/brdf.hpp"
+#include "look/radiance_pyramid.hpp"
 
 namespace remap {
 
@@ -89,7 +89,7 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
                                                 std::span<const TexturedBall> balls,
                                                 const SphereSampling& sampling);
 
-// Converts linear values to display values (renderer/image_similarity.hpp).
+// Converts linear values to display values (look/image_similarity.hpp).
 std::vector<float> display_values(std::span<const float> radiance);
 
 // A DisplayedSphere is a picture in display values. It may show another shape.

@@ -1,4 +1,4 @@
-#include "renderer/image_similarity.hpp"
+#include "look/image_similarity.hpp"
 
 #include <array>
 #include <cmath>

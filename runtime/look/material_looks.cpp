@@ -1,0 +1,61 @@
+#include "look/material_looks.hpp"
+
+#include "core/errors.hpp"
+#include "look/brdf_models.hpp"
+#include "look/image_similarity.hpp"
+#include "look/scene.hpp"
+
+namespace remap {
+
+PictureError picture_error(const DisplayedSphere& source, const DisplayedSphere& other,
+                           std::span<const std::uint32_t> pixels, int resolution) {
+  return {sphere_similarity(source, other, pixels, resolution), rms_difference(source.colors, other.colors)};
+}
+
+LitLooks light(const MaterialLooks& looks, const RadiancePyramid& environment,
+               const SphereSampling& sampling) {
+  std::vector<TexturedBall> balls = {looks.source};
+  if (looks.copied) balls.push_back(*looks.copied);
+  balls.push_back(looks.converted);
+  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, sampling.resolution);
+  LitLooks lit;
+  for (const auto& picture : render_textured(environment, balls, sampling))
+    lit.pictures.push_back(displayed_sphere(picture, pixels, sampling.resolution));
+  const auto error = [&](const DisplayedSphere& other) {
+    return picture_error(lit.pictures.front(), other, pixels, sampling.resolution);
+  };
+  if (looks.copied) lit.copied = error(lit.pictures[1]);
+  lit.converted = error(lit.pictures.back());
+  return lit;
+}
+
+ShownModel::ShownModel(const std::string& model, const ConverterGraph& graph) : name_(model) {
+  if (is_linear_lobe(model)) return;
+  std::vector<ConverterPath> paths;
+  for (const std::string& other : graph.reachable_from(model))
+    if (is_linear_lobe(other)) paths.push_back(graph.find_paths({model, other, {}}).front());
+  if (paths.empty())
+    throw input_error(model + ": no built-in model is close to it, so that it cannot be shown");
+  const ConverterPath& closest = closest_path(paths);
+  to_shown_ = make_chained_converter(closest.steps);
+  name_ = target_model(closest);
+}
+
+TexturedBall ShownModel::ball(ScaledMaps maps, RoughnessEncoding width) const {
+  if (to_shown_ != nullptr) {
+    std::vector<std::vector<float>> diffuse = std::move(maps.rows[Parameter::kDiffuse]);
+    maps = converted(*to_shown_, std::move(maps), width);
+    maps.rows[Parameter::kDiffuse] = std::move(diffuse);
+    width = to_shown_->info().target.roughness;
+  }
+  return ball_of(builtin_brdf(name_), std::move(maps), width);
+}
+
+TexturedBall ShownModel::ball(const WorkflowEnd& workflow, const ScaledMaps& maps,
+                              RoughnessEncoding width) const {
+  const SpecularWorkflow plain{"specular", DiffuseConvention::kPlain, RoughnessEncoding::kAlpha};
+  const WorkflowStages stages{workflow, plain, nullptr, RoughnessEncoding::kAlpha};
+  return ball(converted(*make_workflow_converter(stages), maps, width), RoughnessEncoding::kAlpha);
+}
+
+}  // namespace remap

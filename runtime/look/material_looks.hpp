@@ -1,0 +1,66 @@
+// This file shows a material before and after a conversion: in the source's model, in the target's model with
+// the same numbers, and in the target's model with converted numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "look/lit_sphere.hpp"
+#include "look/scaled_maps.hpp"
+#include "remap/path.hpp"
+#include "remap/workflow.hpp"
+
+namespace remap {
+
+// A MaterialLooks is one material on balls.
+struct MaterialLooks {
+  std::string name;
+  TexturedBall source;
+  std::optional<TexturedBall> copied;  // none if source and target have other parameters
+  TexturedBall converted;
+};
+
+// A PictureError compares a picture with the source's, in display values (sRGB) over the pixels that show the
+// shape.
+struct PictureError {
+  double ssim = 0.0;  // similarity of luma, 1 for equal pictures
+  double rms = 0.0;   // error over red, green and blue
+};
+
+PictureError picture_error(const DisplayedSphere& source, const DisplayedSphere& other,
+                           std::span<const std::uint32_t> pixels, int resolution);
+
+// A LitLooks holds the pictures of a MaterialLooks: source, copied if there is one, and converted.
+struct LitLooks {
+  std::vector<DisplayedSphere> pictures;
+  std::optional<PictureError> copied;
+  PictureError converted;
+};
+
+// Environments of previews have this many rows, because each spot of light costs as much as a sample.
+inline constexpr int kPreviewLightRows = 64;
+
+LitLooks light(const MaterialLooks& looks, const RadiancePyramid& environment,
+               const SphereSampling& sampling);
+
+// A ShownModel is a BRDF model as the built-in renderer shows it. A model that it lacks is shown by the model
+// that a converter of the graph matches best to it.
+class ShownModel {
+ public:
+  // Throws kInput if no converter leads from the model to a built-in model.
+  ShownModel(const std::string& model, const ConverterGraph& graph);
+
+  // Returns the name of the built-in model.
+  const std::string& name() const { return name_; }
+  // Returns the ball of maps with specular, diffuse and a roughness of `width`.
+  TexturedBall ball(ScaledMaps maps, RoughnessEncoding width) const;
+  // Like ball(), for maps of a workflow over this model.
+  TexturedBall ball(const WorkflowEnd& workflow, const ScaledMaps& maps, RoughnessEncoding width) const;
+
+ private:
+  std::string name_;
+  std::unique_ptr<Converter> to_shown_;  // null if the model itself is shown
+};
+
+}  // namespace remap

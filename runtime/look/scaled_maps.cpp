@@ -1,0 +1,110 @@
+#include "look/scaled_maps.hpp"
+
+#include <algorithm>
+
+#include "convert/linear_values.hpp"
+
+namespace remap {
+namespace {
+
+constexpr double kLeastAlpha = 0.01;  // a smoother ball shows the light's own pixels
+
+// A ScaledChannel receives the means of one channel of a parameter.
+struct ScaledChannel {
+  const SetParameter& parameter;
+  std::size_t channel;
+  std::vector<float>& means;
+};
+
+// Reads a map once, and averages its channels.
+void read_means(ImageReader& map, const std::vector<ScaledChannel>& channels, const ScaledMaps& scaled) {
+  const ImageLayout& layout = map.layout();
+  const int across = layout.width / scaled.width, down = layout.height / scaled.height;
+  std::vector<std::byte> band(layout.row_bytes() * static_cast<std::size_t>(down));
+  for (int row = 0; row < scaled.height; ++row) {
+    map.read_rows(row * down, down, band.data());
+    for (const auto& [parameter, channel, means] : channels)
+      scaled.add_means(channel_view(band.data(), layout, parameter.channels[channel].channel), parameter,
+                       channel, across, down, row, means);
+  }
+}
+
+}  // namespace
+
+ScaledMaps ScaledMaps::cells_of(int full_width, int full_height, int side) {
+  const int step = std::max(1, std::max(full_width, full_height) / side);
+  return {std::max(1, full_width / step), std::max(1, full_height / step), {}};
+}
+
+void ScaledMaps::add_means(const ConstChannelView& band, const ParameterValues& values, std::size_t channel,
+                           int across, int down, int row, std::vector<float>& means) const {
+  const float share = values.factor(channel) / static_cast<float>(across * down);
+  std::vector<float> line(static_cast<std::size_t>(width * across));
+  for (std::size_t inner = 0; inner < static_cast<std::size_t>(down); ++inner) {
+    load_linear(values.transfer, band.type, at(band, 0, inner), static_cast<std::size_t>(band.texel_stride),
+                line.size(), line.data());
+    for (int column = 0; column < width * across; ++column)
+      means[static_cast<std::size_t>(row * width + column / across)] +=
+          share * line[static_cast<std::size_t>(column)];
+  }
+}
+
+ScaledMaps scaled_maps(TextureSet& set, int side) {
+  const ImageLayout& layout = set.maps[set.first_map()].layout();
+  ScaledMaps scaled = ScaledMaps::cells_of(layout.width, layout.height, side);
+  std::map<std::size_t, std::vector<ScaledChannel>> of_maps;
+  for (const auto& [parameter, values] : set.parameters) {
+    const std::size_t channels = is_color(parameter) ? 3 : 1;
+    auto& rows = scaled.rows[parameter];
+    rows.assign(channels, std::vector<float>(scaled.count()));
+    for (std::size_t c = 0; c < channels; ++c) {
+      const std::size_t own = std::min(c, values.channel_count() - 1);
+      if (values.is_map())
+        of_maps[values.channels[own].map].push_back({values, own, rows[c]});
+      else
+        std::ranges::fill(rows[c], values.constants[own] * values.factor(own));
+    }
+  }
+  for (const auto& [map, channels] : of_maps) read_means(set.maps[map], channels, scaled);
+  return scaled;
+}
+
+ScaledMaps converted(const Converter& converter, ScaledMaps maps, RoughnessEncoding width) {
+  change_convention(width, converter.info().source.roughness, maps.rows.at(Parameter::kRoughness).front());
+  MaterialRows<const float> in;
+  MaterialRows<float> out;
+  ScaledMaps result{maps.width, maps.height, {}};
+  for (const Parameter parameter : converter.sources()) {
+    auto& rows = maps.rows.at(parameter);
+    in[parameter].count = rows.size();
+    for (std::size_t c = 0; c < rows.size(); ++c) in[parameter].row[c] = rows[c].data();
+  }
+  for (const Parameter parameter : converter.targets()) {
+    if (is_measure(parameter)) continue;
+    auto& rows = result.rows[parameter];
+    rows.assign(converter.target_channels(parameter, 3), std::vector<float>(maps.count()));
+    out[parameter].count = rows.size();
+    for (std::size_t c = 0; c < rows.size(); ++c) out[parameter].row[c] = rows[c].data();
+  }
+  converter.convert(maps.count(), in, out);
+  return result;
+}
+
+TexturedBall ball_of(BrdfModel model, ScaledMaps maps, RoughnessEncoding width) {
+  auto& alphas = maps.rows.at(Parameter::kRoughness).front();
+  change_convention(width, RoughnessEncoding::kAlpha, alphas);
+  const auto& specular = maps.rows.at(Parameter::kSpecular);
+  const auto& diffuse = maps.rows[Parameter::kDiffuse];
+  TexturedBall ball{model, maps.width, maps.height, std::vector<BallTexel>(maps.count())};
+  for (std::size_t i = 0; i < ball.texels.size(); ++i) {
+    BallTexel& texel = ball.texels[i];
+    texel.alpha = std::max(static_cast<double>(alphas[i]), kLeastAlpha);
+    for (std::size_t c = 0; c < 3; ++c) {
+      texel.specular[c] = static_cast<double>(specular[c][i]);
+      if (!diffuse.empty()) texel.diffuse[c] = static_cast<double>(diffuse[c][i]);
+    }
+  }
+  return ball;
+}
+
+}  // namespace remap

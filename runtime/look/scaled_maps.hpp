@@ -1,0 +1,39 @@
+// This file holds a material's maps as linear values, scaled down to the size of a picture.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "look/lit_sphere.hpp"
+#include "remap/converter.hpp"
+#include "remap/pixels.hpp"
+#include "texture/texture_set.hpp"
+
+namespace remap {
+
+// A ScaledMaps holds each parameter as rows of width * height values: one row, or red, green and blue.
+struct ScaledMaps {
+  int width = 1, height = 1;
+  std::map<Parameter, std::vector<std::vector<float>>> rows;
+
+  // Returns maps of zeros whose texels are cells of whole texels of `full_width` * `full_height`. They have
+  // about `side` texels on the longer side.
+  static ScaledMaps cells_of(int full_width, int full_height, int side);
+
+  std::size_t count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  // Adds the means of a band of `across` * width by `down` texels to the cells of `row`.
+  void add_means(const ConstChannelView& band, const ParameterValues& values, std::size_t channel, int across,
+                 int down, int row, std::vector<float>& means) const;
+};
+
+// Reads each map of the set once. Throws kInput if a map cannot be read.
+ScaledMaps scaled_maps(TextureSet& set, int side);
+
+// Converts all texels. `width` is the encoding of the roughness in `maps`; the result's is the converter's.
+ScaledMaps converted(const Converter& converter, ScaledMaps maps, RoughnessEncoding width);
+
+// Returns the ball of maps with specular, diffuse (absent: black) and a roughness of `width`.
+TexturedBall ball_of(BrdfModel model, ScaledMaps maps, RoughnessEncoding width);
+
+}  // namespace remap

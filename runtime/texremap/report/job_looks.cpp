@@ -1,0 +1,108 @@
+#include "texremap/report/job_looks.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "look/gltf_looks.hpp"
+#include "sets/folder_walk.hpp"
+#include "texremap/plan/asset_files.hpp"
+#include "texremap/plan/asset_formats.hpp"
+
+namespace remap {
+namespace {
+
+// A ResultResources gives the new images of a conversion that was not written, and all other files of its
+// asset.
+class ResultResources final : public AssetResources {
+ public:
+  ResultResources(const AssetResources& files, const AssetConversion& conversion)
+      : files_(files), conversion_(conversion) {}
+  std::unique_ptr<ByteSource> open(const std::string& path) const override {
+    const auto found = std::ranges::find(conversion_.files, path, &NewResource::path);
+    if (found == conversion_.files.end()) return files_.open(path);
+    return std::make_unique<MemorySource>(found->bytes);
+  }
+  const ImageCodec& codec() const override { return files_.codec(); }
+  ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override {
+    return files_.enlarged(pixels, width, height);
+  }
+
+ private:
+  const AssetResources& files_;
+  const AssetConversion& conversion_;
+};
+
+std::string bytes_of(const AssetConversion& conversion, const ByteSource& source) {
+  std::string bytes;
+  for (const AssetPiece& piece : conversion.pieces)
+    bytes += piece.bytes.empty() ? source.read(piece.begin, static_cast<std::size_t>(piece.end - piece.begin))
+                                 : piece.bytes;
+  return bytes;
+}
+
+bool has_same_parameters(const WorkflowChoice& workflow) {
+  const auto &source = workflow.source, &target = workflow.target;
+  return source.has_value() == target.has_value() && (!source || kind_of(*source) == kind_of(*target));
+}
+
+}  // namespace
+
+JobLooks::JobLooks(const ConvertPlan& plan) : plan_(plan) {
+  if (plan.sets() == nullptr) return;
+  const WorkflowChoice& workflow = plan.sets()->chosen.workflow;
+  const ConverterGraph graph = shipped_graph();
+  ends_.emplace(ShownEnds{ShownModel(workflow.source_brdf, graph), ShownModel(workflow.target_brdf, graph)});
+  const auto note = [&](const std::string& model, const ShownModel& shown) {
+    const std::string text = model + " is shown as " + shown.name() + ", the closest built-in model";
+    if (model != shown.name() && (notes_.empty() || notes_.back() != text)) notes_.push_back(text);
+  };
+  note(workflow.source_brdf, ends_->source);
+  note(workflow.target_brdf, ends_->target);
+  if (workflow.translation)
+    notes_.emplace_back("layers over the base, such as coats and sheen, are not shown");
+}
+
+std::string JobLooks::copied_title() const { return ends_ ? "numbers copied" : "without conversion"; }
+
+std::vector<MaterialLooks> JobLooks::of(const Job& job, int side, std::size_t most) const {
+  if (const auto* asset = std::get_if<AssetWork>(&job.work)) return of_asset(*asset, side, most);
+  return {of_set(job, side)};
+}
+
+MaterialLooks JobLooks::of_set(const Job& job, int side) const {
+  const ChosenConverter& chosen = plan_.sets()->chosen;
+  TextureSet set = open_texture_set(std::get<SetWork>(job.work).request);
+  const ConverterInfo& info = chosen.info();
+  const RoughnessEncoding width = set.convention.value_or(info.source.roughness);
+  const ScaledMaps given = scaled_maps(set, side);
+  const auto ball = [&](const ShownModel& model, const std::optional<WorkflowEnd>& workflow,
+                        const ScaledMaps& maps, RoughnessEncoding encoding) {
+    return workflow ? model.ball(*workflow, maps, encoding) : model.ball(maps, encoding);
+  };
+  const std::string name =
+      job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());
+  MaterialLooks looks{name + (job.tile.empty() ? "" : " " + job.tile),
+                      ball(ends_->source, chosen.workflow.source, given, width), std::nullopt,
+                      ball(ends_->target, chosen.workflow.target, converted(chosen.converter(), given, width),
+                           info.target.roughness)};
+  if (has_same_parameters(chosen.workflow))
+    looks.copied = ball(ends_->target, chosen.workflow.target, given, width);
+  return looks;
+}
+
+std::vector<MaterialLooks> JobLooks::of_asset(const AssetWork& asset, int side, std::size_t most) const {
+  const std::string context = display_path(asset.input);
+  if (!is_gltf_name(asset.input) || !is_gltf_name(asset.output))
+    throw input_error(context + ": only glTF files can be shown (convert it to glTF first)");
+  const FileSource source(asset.input);
+  const FolderResources files(asset);
+  const AssetConversion conversion =
+      convert_asset(source, asset.input, asset.output, std::get<AssetOptions>(plan_.work), files);
+  if (!conversion.changed) return {};
+  const ResultResources result_files(files, conversion);
+  const std::string bytes = bytes_of(conversion, source);
+  return gltf_looks({source, context, files}, {MemorySource(bytes), context, result_files},
+                    conversion.materials, side, most);
+}
+
+}  // namespace remap
