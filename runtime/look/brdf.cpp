@@ -60,6 +60,32 @@ double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& g) {
   return 0.0;
 }
 
+const char* glsl_name(Brdf brdf) {
+  switch (brdf) {
+    case Brdf::kWard:
+      return "ward";
+    case Brdf::kWardDuer:
+      return "ward_duer";
+    case Brdf::kWardBalanced:
+      return "ward_balanced";
+    case Brdf::kPhong:
+      return "phong";
+    case Brdf::kBlinn:
+      return "blinn";
+    case Brdf::kPlainPhong:
+      return "plain_phong";
+    case Brdf::kPlainBlinn:
+      return "plain_blinn";
+    case Brdf::kBeckmann:
+      return "beckmann";
+    case Brdf::kGgx:
+      return "ggx";
+    case Brdf::kAs:
+      return "ashikhmin_shirley";
+  }
+  return "ggx";
+}
+
 double schlick_weight(double cosine) { return brdf_text::schlick_weight(cosine); }
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& g) {

@@ -1,5 +1,5 @@
 // This file holds the BRDF models as C++ and as GLSL ES 3.00 at once, so that the pictures of remapc and of the
-// viewer have the same formulas. brdf.cpp includes it with `real` as double. The viewer compiles it with `real` as
+// viewer have the same formulas. brdf.cpp includes it with "real" as double. The viewer compiles it with "real" as
 // float. Reflectance is per steradian, without the cosine of the light. brdf.hpp describes LocalGeometry.
 
 const real kBrdfPi = 3.14159265358979323846;
@@ -89,7 +89,7 @@ real ashikhmin_shirley(real alpha, LocalGeometry g) {
          beckmann_shadowing(alpha, g.cos_view) / (real(4.0) * g.cos_light * g.cos_view);
 }
 
-// Returns the weight of white in Schlick's Fresnel (1994). `cosine` is between light and half vector.
+// Returns the weight of white in Schlick's Fresnel (1994). The cosine is between light and half vector.
 real schlick_weight(real cosine) {
   real m = real(1.0) - cosine;
   return m * m * m * m * m;

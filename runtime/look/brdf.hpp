@@ -40,6 +40,9 @@ enum class Brdf {
   // 2.13; MTL, illum 2).
   kPlainBlinn,
 };
+// Returns the name of the lobe's function in brdf.glsl.
+const char* glsl_name(Brdf brdf);
+
 enum class Fresnel { kNone, kSchlick };
 
 // A BrdfModel holds the parts of a built-in model.

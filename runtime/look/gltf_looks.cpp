@@ -51,28 +51,31 @@ class GltfReader {
 
   SpanValue material(std::size_t index) const { return json_.root()["materials"].children().at(index); }
 
-  TexturedBall ball(SpanValue text, GltfWorkflow workflow, int side) {
+  // Returns the maps of a material in the parameters of the workflow.
+  ScaledMaps maps(SpanValue text, GltfWorkflow workflow, int side) {
     std::vector<std::string> ignored;
     GltfMaterial material = read_material(text, workflow, ignored);
     const std::optional<UsedTextures> used =
         used_textures(&textures_, material, inputs_of(workflow), {"the picture", ""}, ignored);
-    RoughnessEncoding width = RoughnessEncoding::kRoughness;
     ScaledMaps maps;
-    if (used) {
-      const GltfMaps read(workflow, material, *used);
-      const ImagePixels& model = *read.sources.color_model;
-      const auto full_width = static_cast<int>(model.width), full_height = static_cast<int>(model.height);
-      maps = ScaledMaps::cells_of(full_width, full_height, side);
-      for (const auto& [parameter, source] : read.sources.conversion.sources)
-        add_rows(source, parameter, full_width, full_height, maps);
-      width = *read.sources.conversion.source_convention;
-    } else {
+    if (!used) {
       for (const auto& [parameter, values] : values_of(workflow, material))
         for (const float value : values) maps.rows[parameter].push_back({value});
+      return maps;
     }
+    const GltfMaps read(workflow, material, *used);
+    const ImagePixels& model = *read.sources.color_model;
+    const auto width = static_cast<int>(model.width), height = static_cast<int>(model.height);
+    maps = ScaledMaps::cells_of(width, height, side);
+    maps.encoding = *read.sources.conversion.source_convention;
+    for (const auto& [parameter, source] : read.sources.conversion.sources)
+      add_rows(source, parameter, width, height, maps);
+    return maps;
+  }
+
+  TexturedBall ball(GltfWorkflow workflow, ScaledMaps maps) const {
     const auto plain = converter_of(workflow, "specular", options_);
-    return ball_of(builtin_brdf("mitsuba/ggx"), converted(*plain, std::move(maps), width),
-                   RoughnessEncoding::kRoughness);
+    return ball_of(builtin_brdf("mitsuba/ggx"), converted(*plain, std::move(maps)));
   }
 
  private:
@@ -102,12 +105,15 @@ std::vector<MaterialLooks> gltf_looks(const GltfFile& source, const GltfFile& re
   for (const AssetMaterial& material : materials) {
     if (material.state != MaterialState::kConverted || looks.size() == most) continue;
     const SpanValue from = before.material(material.index), to = after.material(material.index);
-    const GltfWorkflow workflow = workflow_of(from);
-    MaterialLooks shown{material.name.empty() ? "material " + std::to_string(material.index) : material.name,
-                        before.ball(from, workflow, side), std::nullopt,
-                        after.ball(to, workflow_of(to), side)};
-    if (workflow != GltfWorkflow::kMetalRough)
-      shown.copied = before.ball(from, GltfWorkflow::kMetalRough, side);
+    const GltfWorkflow workflow = workflow_of(from), new_workflow = workflow_of(to);
+    MaterialLooks shown;
+    shown.name = material.name.empty() ? "material " + std::to_string(material.index) : material.name;
+    shown.before = before.maps(from, workflow, side);
+    shown.after = after.maps(to, new_workflow, side);
+    shown.source = before.ball(workflow, shown.before);
+    shown.converted = after.ball(new_workflow, shown.after);
+    if (constexpr auto kCore = GltfWorkflow::kMetalRough; workflow != kCore)
+      shown.copied = before.ball(kCore, before.maps(from, kCore, side));
     looks.push_back(std::move(shown));
   }
   return looks;

@@ -41,21 +41,19 @@ ShownModel::ShownModel(const std::string& model, const ConverterGraph& graph) : 
   name_ = target_model(closest);
 }
 
-TexturedBall ShownModel::ball(ScaledMaps maps, RoughnessEncoding width) const {
+TexturedBall ShownModel::ball(const std::optional<WorkflowEnd>& workflow, ScaledMaps maps) const {
+  if (workflow) {
+    const SpecularWorkflow plain{"specular", DiffuseConvention::kPlain, RoughnessEncoding::kAlpha};
+    const WorkflowStages stages{*workflow, plain, nullptr, RoughnessEncoding::kAlpha};
+    maps = converted(*make_workflow_converter(stages), std::move(maps));
+    maps.encoding = RoughnessEncoding::kAlpha;
+  }
   if (to_shown_ != nullptr) {
     std::vector<std::vector<float>> diffuse = std::move(maps.rows[Parameter::kDiffuse]);
-    maps = converted(*to_shown_, std::move(maps), width);
+    maps = converted(*to_shown_, std::move(maps));
     maps.rows[Parameter::kDiffuse] = std::move(diffuse);
-    width = to_shown_->info().target.roughness;
   }
-  return ball_of(builtin_brdf(name_), std::move(maps), width);
-}
-
-TexturedBall ShownModel::ball(const WorkflowEnd& workflow, const ScaledMaps& maps,
-                              RoughnessEncoding width) const {
-  const SpecularWorkflow plain{"specular", DiffuseConvention::kPlain, RoughnessEncoding::kAlpha};
-  const WorkflowStages stages{workflow, plain, nullptr, RoughnessEncoding::kAlpha};
-  return ball(converted(*make_workflow_converter(stages), maps, width), RoughnessEncoding::kAlpha);
+  return ball_of(builtin_brdf(name_), std::move(maps));
 }
 
 }  // namespace remap

@@ -19,6 +19,7 @@ struct MaterialLooks {
   TexturedBall source;
   std::optional<TexturedBall> copied;  // none if source and target have other parameters
   TexturedBall converted;
+  ScaledMaps before, after;  // in the parameters of source and target
 };
 
 // A PictureError compares a picture with the source's, in display values (sRGB) over the pixels that show the
@@ -53,10 +54,9 @@ class ShownModel {
 
   // Returns the name of the built-in model.
   const std::string& name() const { return name_; }
-  // Returns the ball of maps with specular, diffuse and a roughness of `width`.
-  TexturedBall ball(ScaledMaps maps, RoughnessEncoding width) const;
-  // Like ball(), for maps of a workflow over this model.
-  TexturedBall ball(const WorkflowEnd& workflow, const ScaledMaps& maps, RoughnessEncoding width) const;
+  // Returns the ball of maps of a workflow over this model. Without one, they are roughness, specular,
+  // diffuse.
+  TexturedBall ball(const std::optional<WorkflowEnd>& workflow, ScaledMaps maps) const;
 
  private:
   std::string name_;

@@ -33,7 +33,7 @@ void read_means(ImageReader& map, const std::vector<ScaledChannel>& channels, co
 
 ScaledMaps ScaledMaps::cells_of(int full_width, int full_height, int side) {
   const int step = std::max(1, std::max(full_width, full_height) / side);
-  return {std::max(1, full_width / step), std::max(1, full_height / step), {}};
+  return {std::max(1, full_width / step), std::max(1, full_height / step), RoughnessEncoding::kRoughness, {}};
 }
 
 void ScaledMaps::add_means(const ConstChannelView& band, const ParameterValues& values, std::size_t channel,
@@ -49,9 +49,10 @@ void ScaledMaps::add_means(const ConstChannelView& band, const ParameterValues& 
   }
 }
 
-ScaledMaps scaled_maps(TextureSet& set, int side) {
+ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side) {
   const ImageLayout& layout = set.maps[set.first_map()].layout();
   ScaledMaps scaled = ScaledMaps::cells_of(layout.width, layout.height, side);
+  scaled.encoding = set.convention.value_or(encoding);
   std::map<std::size_t, std::vector<ScaledChannel>> of_maps;
   for (const auto& [parameter, values] : set.parameters) {
     const std::size_t channels = is_color(parameter) ? 3 : 1;
@@ -69,11 +70,12 @@ ScaledMaps scaled_maps(TextureSet& set, int side) {
   return scaled;
 }
 
-ScaledMaps converted(const Converter& converter, ScaledMaps maps, RoughnessEncoding width) {
-  change_convention(width, converter.info().source.roughness, maps.rows.at(Parameter::kRoughness).front());
+ScaledMaps converted(const Converter& converter, ScaledMaps maps) {
+  change_convention(maps.encoding, converter.info().source.roughness,
+                    maps.rows.at(Parameter::kRoughness).front());
   MaterialRows<const float> in;
   MaterialRows<float> out;
-  ScaledMaps result{maps.width, maps.height, {}};
+  ScaledMaps result{maps.width, maps.height, converter.info().target.roughness, {}};
   for (const Parameter parameter : converter.sources()) {
     auto& rows = maps.rows.at(parameter);
     in[parameter].count = rows.size();
@@ -90,9 +92,9 @@ ScaledMaps converted(const Converter& converter, ScaledMaps maps, RoughnessEncod
   return result;
 }
 
-TexturedBall ball_of(BrdfModel model, ScaledMaps maps, RoughnessEncoding width) {
+TexturedBall ball_of(BrdfModel model, ScaledMaps maps) {
   auto& alphas = maps.rows.at(Parameter::kRoughness).front();
-  change_convention(width, RoughnessEncoding::kAlpha, alphas);
+  change_convention(maps.encoding, RoughnessEncoding::kAlpha, alphas);
   const auto& specular = maps.rows.at(Parameter::kSpecular);
   const auto& diffuse = maps.rows[Parameter::kDiffuse];
   TexturedBall ball{model, maps.width, maps.height, std::vector<BallTexel>(maps.count())};

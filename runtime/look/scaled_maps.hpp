@@ -15,6 +15,7 @@ namespace remap {
 // A ScaledMaps holds each parameter as rows of width * height values: one row, or red, green and blue.
 struct ScaledMaps {
   int width = 1, height = 1;
+  RoughnessEncoding encoding = RoughnessEncoding::kRoughness;  // of the roughness
   std::map<Parameter, std::vector<std::vector<float>>> rows;
 
   // Returns maps of zeros whose texels are cells of whole texels of `full_width` * `full_height`. They have
@@ -27,13 +28,14 @@ struct ScaledMaps {
                  int down, int row, std::vector<float>& means) const;
 };
 
-// Reads each map of the set once. Throws kInput if a map cannot be read.
-ScaledMaps scaled_maps(TextureSet& set, int side);
+// Reads each map of the set once. `encoding` is of a roughness map without its own. Throws kInput if a map
+// cannot be read.
+ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side);
 
-// Converts all texels. `width` is the encoding of the roughness in `maps`; the result's is the converter's.
-ScaledMaps converted(const Converter& converter, ScaledMaps maps, RoughnessEncoding width);
+// Converts all texels. The result has the encoding of the converter.
+ScaledMaps converted(const Converter& converter, ScaledMaps maps);
 
-// Returns the ball of maps with specular, diffuse (absent: black) and a roughness of `width`.
-TexturedBall ball_of(BrdfModel model, ScaledMaps maps, RoughnessEncoding width);
+// Returns the ball of maps with roughness, specular and diffuse (absent: black).
+TexturedBall ball_of(BrdfModel model, ScaledMaps maps);
 
 }  // namespace remap

@@ -3,6 +3,7 @@
 
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/convert_plan.hpp"
+#include "texremap/report/report_page.hpp"
 #include "texremap/report/reporter.hpp"
 #include "texremap/run/run_jobs.hpp"
 
@@ -12,7 +13,10 @@ void convert(ConvertOptions options) {
   const ConvertPlan plan = resolve(std::move(options));
   if (plan.is_of_numbers()) return print_converted_numbers(plan);
   Reporter reporter(plan);
-  reporter.finish(run_jobs(plan, [&](const JobReport& report) { reporter.add(report); }));
+  const std::vector<JobReport> reports =
+      run_jobs(plan, [&](const JobReport& report) { reporter.add(report); });
+  if (!plan.report.empty()) write_report_page(plan, reports);
+  reporter.finish(reports);
 }
 
 void add_convert_command(Command& app) {

@@ -385,6 +385,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
                                "Print a report as JSON; of several sets or assets a line for each")
                      ->common()
                      ->tag(kOfPlan | kForAssets);
+  command
+      .add_option("--report FILE", options.report,
+                  "Also write an HTML file that shows the first materials before and after")
+      ->common()
+      ->tag(kOfPlan | kForAssets | kNeedsFiles);
   command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
       ->tag(kNeedsFiles)
       ->needs(json);

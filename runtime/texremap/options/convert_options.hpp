@@ -119,6 +119,7 @@ struct ConvertOptions {
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none
+  std::filesystem::path report;    // HTML file; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool only_converted = false, force = false, dry_run = false;

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "paths/converter_file.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
@@ -290,6 +291,16 @@ bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>
   return false;
 }
 
+// Returns a command line as a shell reads it.
+std::string command_text(const std::vector<GivenOption>& given) {
+  std::string text = "texremap convert";
+  for (const GivenOption& option : given) {
+    if (option.name.starts_with("-")) text += " " + option.name;
+    for (const std::string& word : option.words) text += " " + shell_word(word);
+  }
+  return text;
+}
+
 // Confines inputs to the folders in which others may have put files.
 void confine(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   std::vector<std::filesystem::path> folders;
@@ -322,6 +333,9 @@ ConvertPlan resolve(ConvertOptions options) {
     plan_sets(options, std::move(manifest), plan);
   plan.output = options.output;
   plan.force = options.force;
+  plan.report = options.report;
+  plan.command = command_text(options.given);
+  if (!plan.report.empty()) require_new(plan.report, plan.force);
   plan.dry_run = options.dry_run;
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();

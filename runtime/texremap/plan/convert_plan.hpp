@@ -37,6 +37,8 @@ struct ConvertPlan {
 
   std::filesystem::path output;
   bool force = false, dry_run = false;
+  std::filesystem::path report;  // HTML file about the conversion; empty for none
+  std::string command;           // the command line, as text
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // memory for images, in all threads
   std::optional<GivenPart> part;   // part of the manifest

@@ -71,22 +71,16 @@ std::vector<MaterialLooks> JobLooks::of(const Job& job, int side, std::size_t mo
 
 MaterialLooks JobLooks::of_set(const Job& job, int side) const {
   const ChosenConverter& chosen = plan_.sets()->chosen;
+  const WorkflowChoice& workflow = chosen.workflow;
   TextureSet set = open_texture_set(std::get<SetWork>(job.work).request);
-  const ConverterInfo& info = chosen.info();
-  const RoughnessEncoding width = set.convention.value_or(info.source.roughness);
-  const ScaledMaps given = scaled_maps(set, side);
-  const auto ball = [&](const ShownModel& model, const std::optional<WorkflowEnd>& workflow,
-                        const ScaledMaps& maps, RoughnessEncoding encoding) {
-    return workflow ? model.ball(*workflow, maps, encoding) : model.ball(maps, encoding);
-  };
-  const std::string name =
-      job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());
-  MaterialLooks looks{name + (job.tile.empty() ? "" : " " + job.tile),
-                      ball(ends_->source, chosen.workflow.source, given, width), std::nullopt,
-                      ball(ends_->target, chosen.workflow.target, converted(chosen.converter(), given, width),
-                           info.target.roughness)};
-  if (has_same_parameters(chosen.workflow))
-    looks.copied = ball(ends_->target, chosen.workflow.target, given, width);
+  MaterialLooks looks;
+  looks.name = job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());
+  if (!job.tile.empty()) looks.name += " " + job.tile;
+  looks.before = scaled_maps(set, chosen.info().source.roughness, side);
+  looks.after = converted(chosen.converter(), looks.before);
+  looks.source = ends_->source.ball(workflow.source, looks.before);
+  looks.converted = ends_->target.ball(workflow.target, looks.after);
+  if (has_same_parameters(workflow)) looks.copied = ends_->target.ball(workflow.target, looks.before);
   return looks;
 }
 

@@ -1,0 +1,300 @@
+#include "texremap/report/report_page.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "convert/linear_values.hpp"
+#include "core/base64.hpp"
+#include "core/errors.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "core/report_text.hpp"
+#include "look/brdf_models.hpp"
+#include "look/environment.hpp"
+#include "look/scene.hpp"
+#include "remap/version.hpp"
+#include "texremap/options/program.hpp"
+#include "texremap/report/job_looks.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+
+extern const std::string_view kReportHtml, kViewerStyle, kViewerScript;  // viewer_text.cpp.in
+
+namespace {
+
+constexpr std::size_t kMostMaterials = 16;
+constexpr int kLargestSide = 1024;
+constexpr std::size_t kMostTexels = 2 * kLargestSide * kLargestSide;  // of one map in all materials
+constexpr int kStillSide = 320, kStillDirections = 96;                // of pictures without WebGL
+constexpr std::size_t kLargestPng = 256 * 1024;                       // a larger image becomes JPEG
+constexpr int kLightRows = 128;                                       // of the light that the viewer reads
+constexpr int kJpegQuality = 92;
+
+// A PageImages holds the images of a page as data URIs, equal ones once.
+class PageImages {
+ public:
+  std::size_t add(const ImagePixels& pixels) {
+    const ImageCodec& codec = image_library().codec();
+    std::string bytes = codec.encode_png(pixels, kUsualPngLevel), type = "png";
+    if (bytes.size() > kLargestPng && !pixels.has_alpha()) try {
+        bytes = codec.encode_jpeg(pixels, kJpegQuality), type = "jpeg";
+      } catch (const Error&) {  // a host that only writes PNG
+      }
+    const std::string url = "data:image/" + type + ";base64," + base64(bytes);
+    const auto [place, is_new] = places_.emplace(url, urls_.size());
+    if (is_new) urls_.push_back(url);
+    return place->second;
+  }
+  const std::vector<std::string>& urls() const { return urls_; }
+
+ private:
+  std::vector<std::string> urls_;
+  std::map<std::string, std::size_t> places_;
+};
+
+// Returns an image of rows of linear values times `factor`: one row is grey, three are red, green, blue.
+ImagePixels pixels_of(const std::vector<std::vector<float>>& rows, int width, Transfer transfer,
+                      float factor = 1.0f) {
+  const std::size_t count = rows.front().size();
+  ImagePixels pixels{static_cast<std::size_t>(width), count / static_cast<std::size_t>(width), rows.size(),
+                     PixelType::kUint8, std::vector<std::byte>(rows.size() * count)};
+  std::vector<float> scaled(count);
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    std::ranges::transform(rows[c], scaled.begin(), [&](float value) { return factor * value; });
+    store_linear(transfer, PixelType::kUint8, scaled.data(), count, pixels.bytes.data() + c, rows.size());
+  }
+  return pixels;
+}
+
+float largest_of(const std::vector<std::vector<float>>& rows) {
+  float largest = 0.0f;
+  for (const auto& row : rows)
+    for (const float value : row)
+      if (std::isfinite(value)) largest = std::max(largest, value);
+  return largest;
+}
+
+// Returns the maps of one side as they are stored. Exponents are shown as parts of the largest.
+Json maps_json(const ScaledMaps& maps, PageImages& images) {
+  Json list = Json::list();
+  for (const auto& [parameter, rows] : maps.rows) {
+    if (rows.empty()) continue;
+    const bool is_color_map = is_color(parameter);
+    const float largest = largest_of(rows);
+    const bool is_scaled = largest > 1.0f;
+    std::string name = parameter == Parameter::kRoughness ? std::string(encoding_name(maps.encoding))
+                                                          : std::string(parameter_name(parameter));
+    if (is_scaled) name += " (white is " + number_text(largest) + ")";
+    const ImagePixels pixels = pixels_of(rows, maps.width, is_color_map ? Transfer::kSrgb : Transfer::kLinear,
+                                         is_scaled ? 1.0f / largest : 1.0f);
+    list.push_back(
+        {{"name", name}, {"image", images.add(pixels)}, {"width", maps.width}, {"height", maps.height}});
+  }
+  return list;
+}
+
+std::size_t add_still(const DisplayedSphere& picture, PageImages& images) {
+  const auto side = static_cast<std::size_t>(kStillSide);
+  ImagePixels pixels{side, side, 4, PixelType::kUint8, std::vector<std::byte>(4 * side * side)};
+  const std::vector<std::uint32_t> places = shape_pixels(Shape::kSphere, kStillSide);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::byte* texel = &pixels.bytes[4 * static_cast<std::size_t>(places[i])];
+    for (std::size_t c = 0; c < 3; ++c)
+      texel[c] = static_cast<std::byte>(std::lround(255.0f * picture.colors[3 * i + c]));
+    texel[3] = std::byte{255};
+  }
+  return images.add(pixels);
+}
+
+// Returns a look as the viewer shades it. The image of roughness holds the root of alpha.
+Json look_json(const std::string& title, const std::string& model, const TexturedBall& ball,
+               const DisplayedSphere& picture, const PictureError* error, PageImages& images) {
+  std::vector<std::vector<float>> roughness(1), specular(3), diffuse(3);
+  for (const BallTexel& texel : ball.texels) {
+    roughness[0].push_back(static_cast<float>(std::sqrt(texel.alpha)));
+    for (std::size_t c = 0; c < 3; ++c) {
+      specular[c].push_back(static_cast<float>(texel.specular[c]));
+      diffuse[c].push_back(static_cast<float>(texel.diffuse[c]));
+    }
+  }
+  const float range = std::max(1.0f, largest_of(specular));
+  Json json = {{"title", title},
+               {"model", model},
+               {"brdf", glsl_name(ball.model.brdf)},
+               {"schlick", ball.model.fresnel == Fresnel::kSchlick},
+               {"range", range}};
+  json["roughness"] = images.add(pixels_of(roughness, ball.width, Transfer::kLinear));
+  json["specular"] = images.add(pixels_of(specular, ball.width, Transfer::kSrgb, 1.0f / range));
+  if (largest_of(diffuse) > 0.0f)
+    json["diffuse"] = images.add(pixels_of(diffuse, ball.width, Transfer::kSrgb));
+  json["still"] = add_still(picture, images);
+  if (error != nullptr) {
+    json["rms"] = error->rms;
+    json["ssim"] = error->ssim;
+  }
+  return json;
+}
+
+// Returns the light as RGBE (Ward 1991), row by row from the top.
+Json light_json(const Image& map) {
+  std::string bytes;
+  for (std::size_t i = 0; i < map.values.size(); i += 3) {
+    const float largest = std::max({map.values[i], map.values[i + 1], map.values[i + 2], 1e-9f});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for (std::size_t c = 0; c < 3; ++c)
+      bytes += static_cast<char>(static_cast<int>(std::ldexp(map.values[i + c], 8 - exponent)));
+    bytes += static_cast<char>(exponent + 128);
+  }
+  return {{"width", map.width}, {"height", map.height}, {"rgbe", base64(bytes)}};
+}
+
+std::string filled(std::string text, const std::map<std::string, std::string>& values) {
+  std::string result;
+  for (std::size_t begin = 0;;) {
+    const std::size_t percent = text.find('%', begin), end = text.find('%', percent + 1);
+    const auto value = values.find(percent == std::string::npos || end == std::string::npos
+                                       ? ""
+                                       : text.substr(percent + 1, end - percent - 1));
+    if (percent == std::string::npos) return result + text.substr(begin);
+    if (value == values.end()) {
+      result += text.substr(begin, percent + 1 - begin);
+      begin = percent + 1;
+      continue;
+    }
+    result += text.substr(begin, percent - begin) + value->second;
+    begin = end + 1;
+  }
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '<')
+      result += "&lt;";
+    else if (letter == '>')
+      result += "&gt;";
+    else if (letter == '&')
+      result += "&amp;";
+    else
+      result += letter;
+  }
+  return result;
+}
+
+// Returns JSON for a script element, which ends at the first `</script`.
+std::string script_text(const Json& json) {
+  std::string text = json.dump(), result;
+  for (const char letter : text) result += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
+  return result;
+}
+
+// Returns the studio with mean luminance 1.
+Environment studio_light() {
+  Environment studio = builtin_environments(kLightRows).back();
+  const double luminance = mean_luminance(studio);
+  return exposed(std::move(studio), 1.0 / luminance);
+}
+
+class ReportPage {
+ public:
+  ReportPage(const ConvertPlan& plan, const std::vector<JobReport>& reports)
+      : plan_(plan), reports_(reports), looks_(plan) {}
+
+  std::string html() {
+    json_["command"] = plan_.command;
+    json_["light"] = light_json(environment_.map);
+    json_["materials"] = Json::list();
+    add_materials();
+    if (count_ == 0)
+      throw input_error("--report: no material can be shown" + (notes_.empty() ? "" : ": " + notes_.front()));
+    std::vector<std::string> notes = plan_.messages;
+    for (const std::string& note : looks_.notes()) notes.push_back("note: " + note);
+    notes.insert(notes.end(), notes_.begin(), notes_.end());
+    json_["notes"] = notes;
+    json_["images"] = images_.urls();
+    return filled(std::string(kReportHtml), {{"TITLE", escaped(title())},
+                                             {"VERSION", std::string(kProgram) + " " + kVersion},
+                                             {"STYLE", std::string(kViewerStyle)},
+                                             {"SCRIPT", std::string(kViewerScript)},
+                                             {"DATA", script_text(json_)}});
+  }
+
+ private:
+  std::string title() const { return plan_.conversion.source + " to " + plan_.conversion.target; }
+
+  // Returns the width of the largest maps that the page can hold.
+  int side_of_maps() const {
+    std::size_t materials = 0;
+    for (const JobReport& report : reports_)
+      materials += plan_.sets() != nullptr ? 1 : report.count(MaterialState::kConverted);
+    const double most = std::sqrt(static_cast<double>(kMostTexels) /
+                                  static_cast<double>(std::clamp<std::size_t>(materials, 1, kMostMaterials)));
+    int side = kLargestSide;
+    while (side > most) side /= 2;
+    return side;
+  }
+
+  void add_materials() {
+    const int side = side_of_maps();
+    Progress progress("report", plan_.list.jobs.size(), !plan_.quiet);
+    for (const Job& job : plan_.list.jobs) {
+      if (count_ == kMostMaterials) {
+        notes_.push_back("only the first " + std::to_string(kMostMaterials) + " materials are shown");
+        return;
+      }
+      if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted: the report was not written");
+      try {
+        for (const MaterialLooks& looks : looks_.of(job, side, kMostMaterials - count_)) add(looks);
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::kInput) throw;
+        notes_.push_back("not shown: " + std::string(error.what()));
+      }
+      progress.advance(1);
+    }
+  }
+
+  void add(const MaterialLooks& looks) {
+    SphereSampling sampling;
+    sampling.resolution = kStillSide;
+    sampling.samples = kStillDirections;
+    sampling.jobs = static_cast<unsigned>(plan_.threads);
+    const LitLooks lit = light(looks, pyramid_, sampling);
+    Json json = {{"name", looks.name}};
+    json["looks"] = Json::list();
+    const std::string &source = looks_.source_model(), &target = looks_.target_model();
+    json["looks"].push_back(look_json("source", source, looks.source, lit.pictures[0], nullptr, images_));
+    if (looks.copied)
+      json["looks"].push_back(
+          look_json(looks_.copied_title(), target, *looks.copied, lit.pictures[1], &*lit.copied, images_));
+    json["looks"].push_back(
+        look_json("converted", target, looks.converted, lit.pictures.back(), &lit.converted, images_));
+    json["maps"] = {{"before", maps_json(looks.before, images_)}, {"after", maps_json(looks.after, images_)}};
+    json_["materials"].push_back(std::move(json));
+    ++count_;
+  }
+
+  const ConvertPlan& plan_;
+  const std::vector<JobReport>& reports_;
+  const JobLooks looks_;
+  const Environment environment_ = studio_light();
+  const RadiancePyramid pyramid_{std::span(&environment_, 1), kPreviewLightRows};
+  PageImages images_;
+  std::vector<std::string> notes_;
+  std::size_t count_ = 0;
+  Json json_;
+};
+
+}  // namespace
+
+void write_report_page(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
+  write_file(plan.report, ReportPage(plan, reports).html());
+}
+
+}  // namespace remap
