@@ -11,6 +11,7 @@ const { build } = createRequire(join(modules, 'x'))('esbuild');
 const repository = join(dirname(fileURLToPath(import.meta.url)), '..');
 const source = join(repository, 'web/src');
 const sourceText = (name) => readFileSync(join(source, name), 'utf8');
+const style = ['../viewer/page.css', '../viewer/viewer.css', 'style.css'].map(sourceText).join('');
 
 async function bundled(entry, alias = {}) {
   const { outputFiles } = await build({
@@ -22,6 +23,7 @@ async function bundled(entry, alias = {}) {
     target: 'es2022',
     nodePaths: [modules],
     alias: { 'page.mjs': join(program, 'page.mjs'), ...alias },
+    loader: { '.glsl': 'text' },
     define: { 'import.meta.url': '""' },
     legalComments: 'none',
     logLevel: 'warning',
@@ -38,7 +40,7 @@ const policy = (scripts, worker, connect) =>
   `default-src 'none'; script-src ${scripts} 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src data: blob:; `
   + `worker-src ${worker}; connect-src ${connect}; base-uri 'none'; form-action 'none'`;
 
-const licenses = [readFileSync(join(repository, 'packages/NOTICES'), 'utf8'), ...['three', 'fast-png', 'fflate', 'iobuffer'].map((name) =>
+const licenses = [readFileSync(join(repository, 'packages/NOTICES'), 'utf8'), ...['fast-png', 'fflate', 'iobuffer'].map((name) =>
   `=== ${name}\n\n${readFileSync(join(modules, name, 'LICENSE'), 'utf8').trim()}\n`)].join('\n');
 
 const wasm = readFileSync(join(program, 'page.wasm'));
@@ -51,7 +53,7 @@ mkdirSync(folder, { recursive: true });
 writeFileSync(join(folder, 'texremap.wasm'), wasm);
 writeFileSync(join(folder, 'worker.js'), worker);
 writeFileSync(join(folder, 'page.js'), await page('folder'));
-writeFileSync(join(folder, 'style.css'), sourceText('style.css'));
+writeFileSync(join(folder, 'style.css'), style);
 writeFileSync(join(folder, 'licenses.txt'), licenses);
 writeFileSync(join(folder, 'index.html'), filled({
   POLICY: policy("'self'", "'self'", "'self'"),
@@ -60,7 +62,7 @@ writeFileSync(join(folder, 'index.html'), filled({
 }));
 writeFileSync(join(out, 'texremap.html'), filled({
   POLICY: policy("'unsafe-inline' blob:", 'blob:', "'none'"),
-  STYLE: `<style>\n${sourceText('style.css')}</style>`,
+  STYLE: `<style>\n${style}</style>`,
   SCRIPT: `<script type="text/plain" id="wasm">${gzipSync(wasm, { level: 9 }).toString('base64')}</script>\n`
     + `<script type="text/plain" id="worker">${inline(worker)}</script>\n`
     + `<script>${inline(await page('single'))}</script>\n<!--\n${licenses.replaceAll('--', '- -')}-->`,

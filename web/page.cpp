@@ -7,7 +7,6 @@
 #include "core/json.hpp"
 #include "paths/known_names.hpp"
 #include "remap/path.hpp"
-#include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texture/layout.hpp"
 
@@ -15,18 +14,14 @@ namespace remap {
 namespace {
 
 Json names() {
-  Json engines = Json::list(), materials = Json::list(), models = Json::list();
+  Json engines = Json::list(), models = Json::list();
   for (const NamedLayout& engine : engine_layouts())
     if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` is only the material
-  for (const WorkflowModel& model : workflow_models())
-    materials.push_back(
-        {{"name", model_of(model.end)}, {"workflow", kind_name(model.end)}, {"brdf", model.brdf}});
   const ConverterGraph graph = shipped_graph();
   for (const std::string& name : graph.models()) models.push_back(name);
   return {{"programs", names_json(known_programs())},
           {"formats", names_json(known_formats())},
           {"engines", engines},
-          {"materials", materials},
           {"models", models}};
 }
 

@@ -210,7 +210,7 @@ std::vector<GivenOption> Command::given() const {
   std::vector<GivenOption> all;
   for (const auto& option : options_)
     if (const CLI::Option& own = *option->option_; own.count() > 0)
-      all.push_back({name_of(own), own.get_type_size() == 0 ? std::vector<std::string>() : own.results(),
+      all.push_back({name_of(own), own.get_expected_max() == 0 ? std::vector<std::string>() : own.results(),
                      option->tags_});
   return all;
 }

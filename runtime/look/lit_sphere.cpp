@@ -75,9 +75,14 @@ struct Mixture {
   }
 };
 
-Mixture mixture_for(double least_alpha, double largest_alpha, int samples) {
+// Returns the mixture for the least and the largest alpha of `materials`.
+Mixture mixture_for(const auto& materials, int samples) {
   Mixture mixture;
-  mixture.alphas = {least_alpha, largest_alpha};
+  mixture.alphas = {materials.front().alpha, materials.front().alpha};
+  for (const auto& material : materials) {
+    mixture.alphas[0] = std::min(mixture.alphas[0], material.alpha);
+    mixture.alphas[1] = std::max(mixture.alphas[1], material.alpha);
+  }
   for (std::size_t t = 0; t < kTechniqueCount; ++t) {
     mixture.counts[t] =
         std::max(1u, static_cast<std::uint32_t>(std::lround(kTechniqueShare[t] * samples / kHalves)));
@@ -270,8 +275,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
   if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
 
   SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
-  const auto [low, high] = std::ranges::minmax_element(materials, {}, &SphereMaterial::alpha);
-  const Rendering rendering{environments, materials, mixture_for(low->alpha, high->alpha, sampling.samples)};
+  const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
   run_parallel(side, sampling.jobs, [&](std::size_t row) {
@@ -336,15 +340,14 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
   std::vector<std::vector<float>> pictures(balls.size(), std::vector<float>(3 * pixels.size()));
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
   run_parallel(side, sampling.jobs, [&](std::size_t row) {
-    const auto begin = std::ranges::lower_bound(pixels, row * side),
-               end = std::ranges::lower_bound(pixels, (row + 1) * side);
+    const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
+    const auto end = std::lower_bound(pixels.begin(), pixels.end(), (row + 1) * side);
     for (auto place = begin; place != end; ++place) {
       SurfacePoint point;
       sphere_point(sampling.resolution, *place % side + 0.5, static_cast<double>(row) + 0.5, &point);
       std::vector<BallTexel> texels;
       for (const TexturedBall& ball : balls) texels.push_back(texel_at(ball, point));
-      const auto [low, high] = std::ranges::minmax_element(texels, {}, &BallTexel::alpha);
-      const Mixture mixture = mixture_for(low->alpha, high->alpha, sampling.samples);
+      const Mixture mixture = mixture_for(texels, sampling.samples);
       const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *place);
       BallPixel pixel{sampler, balls, texels, std::vector<Rgb>(balls.size())};
       add_light(environment, mixture, pixel);

@@ -39,8 +39,9 @@ struct LitLooks {
   PictureError converted;
 };
 
-// Environments of previews have this many rows, because each spot of light costs as much as a sample.
-inline constexpr int kPreviewLightRows = 64;
+// Environments of previews have this many rows. With fewer, the edges of lamps blur in the highlights of
+// smooth materials.
+inline constexpr int kPreviewLightRows = 256;
 
 LitLooks light(const MaterialLooks& looks, const RadiancePyramid& environment,
                const SphereSampling& sampling);

@@ -35,7 +35,7 @@ function opened(bytes) {
 
 export const isGltf = (path) => /\.(gltf|glb)$/i.test(path);
 
-/** An asset of the files [{ path, bytes }]: { materials, imageBytes(index) }; null where it is damaged. */
+/** An asset of the files [{ path, bytes }]: { imageCount, imageBytes(index) }; null where it is damaged. */
 export function openAsset(files, path) {
   const byPath = new Map(files.map((file) => [file.path, file.bytes]));
   try {
@@ -50,44 +50,11 @@ export function openAsset(files, path) {
       const first = view.byteOffset ?? 0;
       return (uri === undefined ? binary : bytesAt(uri))?.subarray(first, first + view.byteLength);
     };
-    const imageOf = (texture) => {
-      const found = document.textures?.[texture?.index];
-      return found?.extensions?.EXT_texture_webp?.source ?? found?.source;
-    };
     return {
       imageCount: document.images?.length ?? 0,
       imageBytes,
-      materials: (document.materials ?? []).map((material, index) => materialOf(material, index, imageOf)),
     };
   } catch {
     return null;
   }
-}
-
-// Returns a material with the images of its maps by index, in one of two shapes.
-function materialOf(material, index, imageOf) {
-  const name = material.name ?? `material ${index + 1}`;
-  const gloss = material.extensions?.KHR_materials_pbrSpecularGlossiness;
-  if (gloss)
-    return {
-      name,
-      workflow: 'specular',
-      color: { factor: gloss.diffuseFactor ?? [1, 1, 1], image: imageOf(gloss.diffuseTexture) },
-      specular: { factor: gloss.specularFactor ?? [1, 1, 1], image: imageOf(gloss.specularGlossinessTexture) },
-      roughness: {
-        factor: gloss.glossinessFactor ?? 1,
-        image: imageOf(gloss.specularGlossinessTexture),
-        channel: 'A',
-        encoding: 'glossiness',
-      },
-    };
-  const metal = material.pbrMetallicRoughness ?? {};
-  const image = imageOf(metal.metallicRoughnessTexture);
-  return {
-    name,
-    workflow: 'metallic',
-    color: { factor: metal.baseColorFactor ?? [1, 1, 1], image: imageOf(metal.baseColorTexture) },
-    metallic: { factor: metal.metallicFactor ?? 1, image, channel: 'B' },
-    roughness: { factor: metal.roughnessFactor ?? 1, image, channel: 'G', encoding: 'roughness' },
-  };
 }

@@ -5,12 +5,11 @@ import { startWorker, wasmBytes } from 'parts';
 import { archived } from './conversion.js';
 import { Core } from './core.js';
 import { bytesOf, filesOfDrop, filesOfInput } from './intake.js';
-import { Stage } from './stage.js';
+import { Viewer } from '../viewer/viewer.js';
 
 const $ = (id) => document.getElementById(id);
 
 let core = null;
-let stage = null;
 let files = [];  // [{ path, file }]
 
 function report(lines) {
@@ -85,10 +84,11 @@ function offer(results) {
 // The conversion stays valid, even if the pictures fail.
 async function draw(lines) {
   try {
-    stage.show(await core.call('preview'));
+    const shown = await core.call('report');
+    $('stage').hidden = false;
+    new Viewer($('viewer'), shown);
   } catch (error) {
-    stage.show({});
-    report([...lines, `texremap: warning: there are no pictures of it: ${error.message}`]);
+    report([...lines, `texremap: note: it has no pictures: ${error.message}`]);
   }
 }
 
@@ -102,6 +102,7 @@ async function convert() {
   const layout = isPacked ? to : '';
   const request = { from: $('from').value, to, layout, isEngine: isPacked || engines.has(to), more: $('more').value };
   $('download').hidden = true;
+  $('stage').hidden = true;
   document.body.setAttribute('aria-busy', 'true');
   report(['Converting…']);
   try {
@@ -112,10 +113,9 @@ async function convert() {
     if (answer.status !== 0) lines.push(`error: not everything was converted (exit code ${answer.status})`);
     report(lines);
     offer(answer.files);
-    await draw(lines);
+    if (answer.status === 0) await draw(lines);
   } catch (error) {
     fail(error.message);
-    stage.show({});
   } finally {
     isBusy = false;
     document.body.removeAttribute('aria-busy');
@@ -155,7 +155,6 @@ async function start() {
     const wasm = await wasmBytes();
     const names = await begun.call('start', { wasm }, [wasm]);
     fillNames(names);
-    stage = new Stage(names.materials);
     core = begun;
     take(files);
     if (files.length === 0) $('chosen').textContent = 'No files yet.';

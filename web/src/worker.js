@@ -16,8 +16,8 @@ const calls = {
     last = new Conversion(await makeProgram(compiled, images), images);
     return last.run(files, request);
   },
-  // Draws later, so that files need not wait for pictures.
-  preview: () => last.preview(),
+  // Runs later, so that files need not wait for pictures.
+  report: () => last.report(),
 };
 
 // The program itself calls `abort` only if its memory, of 2 GB at most, is full.

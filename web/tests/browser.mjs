@@ -14,10 +14,10 @@ const modules = join(repository, 'build/web/node_modules');
 const chromium = [process.env.CHROMIUM, 'chromium-headless-shell', 'chromium', 'google-chrome'].find(
   (name) => name && spawnSync(name, ['--version']).status === 0);
 
-export const skip = !chromium ? 'Chromium is not installed (apt-get install --no-install-recommends chromium-headless-shell)'
-  : !existsSync(join(built, 'texremap.html')) ? 'the page is not built (scripts/package web)'
-  : !existsSync(modules) ? 'its modules are not fetched (scripts/package web)'
+export const skipBrowser = !chromium ? 'Chromium is not installed (apt-get install --no-install-recommends chromium-headless-shell)'
+  : !existsSync(modules) ? 'the modules of the page are not fetched (scripts/package web)'
   : false;
+export const skip = skipBrowser || (!existsSync(join(built, 'texremap.html')) ? 'the page is not built (scripts/package web)' : false);
 export const skipNative = skip || (existsSync(native) ? false : 'texremap is not built (TEXREMAP_NATIVE names another one)');
 
 /** A package of the page. */
@@ -38,10 +38,10 @@ export async function served() {
 
 export const fileUrl = () => pathToFileURL(join(built, 'texremap.html')).href;
 
-export async function startBrowser() {
+export async function startBrowser(...flags) {
   const { default: puppeteer } = await loaded('puppeteer-core');
   const path = spawnSync('which', [chromium], { encoding: 'utf8' }).stdout.trim();
-  return puppeteer.launch({ executablePath: path, headless: true, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] });
+  return puppeteer.launch({ executablePath: path, headless: true, args: [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), '--enable-unsafe-swiftshader', ...flags] });
 }
 
 /** One visit: what a person does, and what the page says. */

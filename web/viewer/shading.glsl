@@ -6,7 +6,7 @@ uniform sampler2D roughness_map, specular_map, diffuse_map, normal_map, light_ma
 uniform vec2 size, center, jitter;  // of the canvas in pixels; place of its middle on the picture; of the pixel
 uniform float zoom, turn, specular_range, light_range, light_height;
 uniform bool has_schlick, has_diffuse, has_normals, is_shader_ball;
-uniform int first_sample, sample_count, frame;
+uniform int sample_count, frame, frame_count;  // samples of a frame
 out vec4 mean;
 
 const float kCameraDistance = 3.0, kHalfImage = 0.35355339;  // of the scene of remapc (look/scene.hpp)
@@ -79,7 +79,7 @@ vec3 shaded(vec3 n, vec3 view, float alpha, vec3 specular, vec3 diffuse, vec2 sh
   float half_count = 0.5 * float(sample_count);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < sample_count; ++i) {
-    float k = float(first_sample + i);
+    float k = float(frame * sample_count + i);
     vec2 u = fract(shift + k * vec2(0.7548776662, 0.5698402910));  // Roberts 2018
     float azimuth = 2.0 * kPi * u.y;
     vec3 light;
@@ -106,7 +106,7 @@ vec3 shaded(vec3 n, vec3 view, float alpha, vec3 specular, vec3 diffuse, vec2 sh
                                   cos_light / kPi);
     vec3 fresnel = has_schlick ? mix(specular, vec3(1.0), schlick_weight(g.cos_light_half)) : specular;
     vec3 reflected = (SHAPE(alpha, g) * fresnel + diffuse / kPi) * cos_light;
-    sum += light_from(light, 1.0 / density) * reflected / density;
+    sum += light_from(light, 1.0 / (density * float(frame_count))) * reflected / density;
   }
   return sum;
 }

@@ -28,7 +28,7 @@ void main() {
 }`;
 
 const SAMPLES = 16;  // of a frame
-const FRAMES = 64;
+const FRAMES = 128;
 const MAPS = ['roughness', 'specular', 'diffuse', 'normal'];
 
 // Returns the texels of the light, [Float32Array] from fine to coarse, whose values are at most 1, and the factor.
@@ -201,9 +201,9 @@ export class Shading {
     gl.uniform1i(place('has_diffuse'), 'diffuse' in textures);
     gl.uniform1i(place('has_normals'), 'normal' in textures);
     gl.uniform1i(place('is_shader_ball'), state.object === 'shader ball');
-    gl.uniform1i(place('first_sample'), count * SAMPLES);
     gl.uniform1i(place('sample_count'), SAMPLES);
     gl.uniform1i(place('frame'), count);
+    gl.uniform1i(place('frame_count'), FRAMES);
     gl.bindFramebuffer(gl.FRAMEBUFFER, frames[count % 2].buffer);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     side.count = count + 1;

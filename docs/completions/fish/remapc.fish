@@ -12,7 +12,7 @@ complete -c remapc -n __fish_use_subcommand -f -a invert -d 'Fit the inverse of 
 complete -c remapc -n __fish_use_subcommand -f -a build -d 'Make every table, fit and header of fits/manifest.json that is out of date'
 complete -c remapc -n __fish_use_subcommand -f -a list -d 'List the fits of a folder, or the built-in models'
 complete -c remapc -n __fish_use_subcommand -f -a show -d 'Show a fit: models, domain, errors, mapping and its table'
-complete -c remapc -n __fish_use_subcommand -f -a preview -d 'Render a source and its conversion side by side, for a fit or your texture sets'
+complete -c remapc -n __fish_use_subcommand -f -a preview -d 'Render a source and its conversion side by side, for a fit or your own material'
 complete -c remapc -n __fish_use_subcommand -f -a eval -d 'Print the errors of a fit on a table, or its values on a grid'
 complete -c remapc -n __fish_use_subcommand -f -a renderers -d 'List the external renderers on this machine: versions, models, parameters'
 complete -c remapc -n __fish_use_subcommand -f -a warp -d 'Give one texture set the reflectance of another, guided by strokes'

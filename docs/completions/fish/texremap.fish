@@ -15,6 +15,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l only-converted 
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l force -d 'Overwrite files that exist'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l dry-run -d 'Show what would happen to each map'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l json -d 'Print a report as JSON'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l report -r -F -d 'Also write an HTML file that shows the first materials before and after'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -s h -l help -d 'Show this help'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l help-all -d 'Show all options'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l fit -r -F -d 'Convert by this fit'

@@ -8,6 +8,7 @@
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
+#include "command_line/run_app.hpp"
 #include "convert/linear_values.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
@@ -18,6 +19,7 @@
 #include "look/environment.hpp"
 #include "look/scene.hpp"
 #include "remap/version.hpp"
+#include "sets/folder_walk.hpp"
 #include "texremap/options/program.hpp"
 #include "texremap/report/job_looks.hpp"
 #include "texture/image_library.hpp"
@@ -31,7 +33,7 @@ namespace {
 constexpr std::size_t kMostMaterials = 16;
 constexpr int kLargestSide = 1024;
 constexpr std::size_t kMostTexels = 2 * kLargestSide * kLargestSide;  // of one map in all materials
-constexpr int kStillSide = 320, kStillDirections = 96;                // of pictures without WebGL
+constexpr int kStillSide = 256, kStillDirections = 64;                // of pictures without WebGL
 constexpr std::size_t kLargestPng = 256 * 1024;                       // a larger image becomes JPEG
 constexpr int kLightRows = 128;                                       // of the light that the viewer reads
 constexpr int kJpegQuality = 92;
@@ -66,7 +68,7 @@ ImagePixels pixels_of(const std::vector<std::vector<float>>& rows, int width, Tr
                      PixelType::kUint8, std::vector<std::byte>(rows.size() * count)};
   std::vector<float> scaled(count);
   for (std::size_t c = 0; c < rows.size(); ++c) {
-    std::ranges::transform(rows[c], scaled.begin(), [&](float value) { return factor * value; });
+    for (std::size_t i = 0; i < count; ++i) scaled[i] = factor * rows[c][i];
     store_linear(transfer, PixelType::kUint8, scaled.data(), count, pixels.bytes.data() + c, rows.size());
   }
   return pixels;
@@ -90,6 +92,7 @@ Json maps_json(const ScaledMaps& maps, PageImages& images) {
     const bool is_scaled = largest > 1.0f;
     std::string name = parameter == Parameter::kRoughness ? std::string(encoding_name(maps.encoding))
                                                           : std::string(parameter_name(parameter));
+    std::ranges::replace(name, '_', ' ');
     if (is_scaled) name += " (white is " + number_text(largest) + ")";
     const ImagePixels pixels = pixels_of(rows, maps.width, is_color_map ? Transfer::kSrgb : Transfer::kLinear,
                                          is_scaled ? 1.0f / largest : 1.0f);
@@ -213,7 +216,8 @@ class ReportPage {
     json_["materials"] = Json::list();
     add_materials();
     if (count_ == 0)
-      throw input_error("--report: no material can be shown" + (notes_.empty() ? "" : ": " + notes_.front()));
+      throw input_error("--report: no material can be shown" +
+                        (notes_.empty() ? " (the conversion changed none)" : ": " + notes_.front()));
     std::vector<std::string> notes = plan_.messages;
     for (const std::string& note : looks_.notes()) notes.push_back("note: " + note);
     notes.insert(notes.end(), notes_.begin(), notes_.end());
@@ -227,7 +231,13 @@ class ReportPage {
   }
 
  private:
-  std::string title() const { return plan_.conversion.source + " to " + plan_.conversion.target; }
+  std::string title() const {
+    const std::vector<Job>& jobs = plan_.list.jobs;
+    const std::string source = plan_.sets() != nullptr ? plan_.conversion.source
+                               : jobs.size() == 1      ? display_path(jobs.front().name)
+                                                       : counted(jobs.size(), "asset");
+    return source + " to " + plan_.conversion.target;
+  }
 
   // Returns the width of the largest maps that the page can hold.
   int side_of_maps() const {
@@ -254,7 +264,7 @@ class ReportPage {
         for (const MaterialLooks& looks : looks_.of(job, side, kMostMaterials - count_)) add(looks);
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::kInput) throw;
-        notes_.push_back("not shown: " + std::string(error.what()));
+        notes_.emplace_back(error.what());
       }
       progress.advance(1);
     }
@@ -294,7 +304,12 @@ class ReportPage {
 }  // namespace
 
 void write_report_page(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
-  write_file(plan.report, ReportPage(plan, reports).html());
+  try {
+    write_file(plan.report, ReportPage(plan, reports).html());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    print_message(kProgram, "warning: " + std::string(error.what()));
+  }
 }
 
 }  // namespace remap

@@ -1,0 +1,127 @@
+// Reports as HTML: what they show equals the files, they hold everything that they need, and names of
+// strangers stay text.
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "core/base64.hpp"
+#include "texture/image_library.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kSample = std::string(REMAP_SAMPLES) + "/painted_copper";
+
+nlohmann::json data_of(const std::string& html) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t first = html.find(begin) + begin.size();
+  return nlohmann::json::parse(html.substr(first, html.find("</script>", first) - first));
+}
+
+ImagePixels image_of(const nlohmann::json& data, const nlohmann::json& index) {
+  const auto url = data["images"][index.get<std::size_t>()].get<std::string>();
+  const auto bytes = from_base64<std::string>(url.substr(url.find(',') + 1));
+  REQUIRE(bytes.has_value());
+  return image_library().codec().decode(*bytes, "image of the report");
+}
+
+nlohmann::json reported(const Session& session, const Words& words) {
+  require_success(session.texremap(Words("convert --report r.html") + words));
+  return data_of(read_file(session.path("r.html")));
+}
+
+// Writes a set whose maps have one value each.
+void write_metal(const Session& session, const std::string& name) {
+  const auto spec = test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8);
+  session.make(name + "_roughness.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 0.4f; });
+  session.make(name + "_baseColor.png", spec,
+               [](int, int, int c) { return 0.2f + 0.2f * static_cast<float>(c); });
+  session.make(name + "_metallic.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 1.0f; });
+}
+
+}  // namespace
+
+TEST_CASE("texremap report: a glTF file, as its material says, without conversion, and converted") {
+  const Session session;
+  const auto data = reported(session, "-o out.glb " + kSample + ".glb");
+  CHECK(data["command"].get<std::string>() ==
+        "texremap convert " + kSample + ".glb --output out.glb --report r.html");
+  REQUIRE(data["materials"].size() == 1);
+  const auto& material = data["materials"][0];
+  REQUIRE(material["looks"].size() == 3);
+  CHECK(material["looks"][0]["title"] == "source");
+  CHECK_FALSE(material["looks"][0].contains("rms"));
+  CHECK(material["looks"][1]["title"] == "without conversion");
+  CHECK(material["looks"][1]["rms"].get<double>() > 0.2);
+  CHECK(material["looks"][2]["rms"].get<double>() < 0.01);
+  CHECK(material["looks"][2]["brdf"] == "ggx");
+  const auto names = [&](const char* side) {
+    std::vector<std::string> found;
+    for (const auto& map : material["maps"][side]) found.push_back(map["name"]);
+    std::ranges::sort(found);
+    return found;
+  };
+  CHECK(names("before") == std::vector<std::string>{"diffuse", "glossiness", "specular"});
+  CHECK(names("after") == std::vector<std::string>{"base color", "metallic", "roughness"});
+}
+
+TEST_CASE("texremap report: looks hold the numbers of the maps") {
+  const Session session;
+  write_metal(session, "a");
+  const auto data = reported(session, ". -o out --from blender --to mitsuba/ggx --dry-run");
+  CHECK_FALSE(std::filesystem::exists(session.path("out")));
+  const auto& look = data["materials"][0]["looks"].back();
+  const ImagePixels specular = image_of(data, look["specular"]);
+  REQUIRE(specular.channels == 3);
+  for (std::size_t c = 0; c < 3; ++c)  // a metal has its base color as F0
+    CHECK(std::abs(static_cast<int>(specular.bytes[c]) -
+                   std::lround(255.0 * (0.2 + 0.2 * static_cast<double>(c)))) <= 3);
+  const ImagePixels roughness = image_of(data, data["materials"][0]["looks"][0]["roughness"]);
+  CHECK(std::abs(static_cast<int>(roughness.bytes[0]) - 102) <= 3);
+  CHECK(data["light"]["width"] == 2 * data["light"]["height"].get<int>());
+}
+
+TEST_CASE("texremap report: sixteen materials at most, and what is not shown is said", "[slow]") {
+  const Session session;
+  for (int i = 10; i < 28; ++i) write_metal(session, "set" + std::to_string(i));
+  const auto data = reported(session, ". -o out --from blender --to threejs --dry-run");
+  CHECK(data["materials"].size() == 16);
+  const std::string notes = data["notes"].dump();
+  CHECK_THAT(notes, Contains("only the first 16 materials are shown"));
+  CHECK_THAT(notes, Contains("threejs-r187/standard-metal is shown as mitsuba/"));
+}
+
+TEST_CASE("texremap report: names stay text") {
+  const Session session;
+  std::filesystem::create_directory(session.path("in"));
+  write_metal(session, "in/a");
+  std::filesystem::rename(session.path("in"), session.path("in<b>&"));
+  require_success(session.texremap("convert 'in<b>&' -o out --from blender --to threejs --report r.html"));
+  const std::string html = read_file(session.path("r.html"));
+  CHECK(html.find("in<b>") == std::string::npos);
+  CHECK_THAT(data_of(html)["command"].get<std::string>(), Contains("'in<b>&'"));
+}
+
+TEST_CASE("texremap report: an existing file stays, and MTL files are named") {
+  const Session session;
+  write_metal(session, "a");
+  write_file(session.path("r.html"), "mine");
+  const Words words("convert . -o out --from blender --to threejs --report r.html");
+  CHECK_THAT(session.texremap(words).errors, Contains("r.html"));
+  CHECK(read_file(session.path("r.html")) == "mine");
+  require_success(session.texremap(words + " --force"));
+  write_file(session.path("m.mtl"), "newmtl a\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 50\n");
+  const ProcessResult result = session.texremap("convert m.mtl -o n.mtl --report m.html");
+  require_success(result);
+  CHECK_THAT(result.errors,
+             Contains("warning: --report: no material can be shown: m.mtl: only glTF files can be shown"));
+  CHECK_FALSE(std::filesystem::exists(session.path("m.html")));
+  CHECK(std::filesystem::exists(session.path("n.mtl")));
+}
