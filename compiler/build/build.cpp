@@ -232,8 +232,8 @@ class Builder {
     const std::string bytes = read_file(table);
     FitOptions options;
     options.id = item.id;
-    options.regression.seed = item.seed;
-    options.regression.jobs = 1;
+    options.seed = item.seed;
+    options.jobs = 1;
     options.accept_light = item.accept_light;
     Fit fit =
         fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;

@@ -13,14 +13,6 @@
 
 namespace remap {
 
-struct FitOptions {
-  std::string id;                // if empty, `<source>_to_<target>` from the table
-  std::string_view kind;         // one of kFitKinds; if empty, compare_forms() chooses
-  RegressionOptions regression;  // its seed is also the seed of the split
-  double held_out_fraction = 0.2;
-  bool accept_light = false;  // see light_remark() (table/light.hpp)
-};
-
 // A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
 struct FittedTable {
   Fit fit;

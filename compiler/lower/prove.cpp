@@ -27,30 +27,26 @@ struct Box {
 double centre(const Range& range) { return 0.5 * (range.min + range.max); }
 double half_width(const Range& range) { return 0.5 * (range.max - range.min); }
 
-// A Verdict is the result of an enclosure over a box.
-struct Verdict {
+// A JudgedBox is a box with the result of an enclosure over it.
+struct JudgedBox {
+  Box box;
   double bound = 0.0;           // infinite if the enclosure failed
   double at_least = -INFINITY;  // no bound can be lower
   bool halve_alpha = true;      // the direction in which to halve the box
+  bool operator<(const JudgedBox& other) const { return bound < other.bound; }
 };
 
 // Replaces NaN by infinity, because comparisons would lose NaN.
 double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
-Verdict verdict(const TexelTaylor& error, const Box& box) {
+JudgedBox judged(const Box& box, const TexelTaylor& error) {
   const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
   // If the remainder dominates the polynomial, the extents are meaningless. The box is then halved along
   // alpha and specular in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
-  return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
+  return {box, bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
 }
-
-struct JudgedBox {
-  Verdict verdict;
-  Box box;
-  bool operator<(const JudgedBox& other) const { return verdict.bound < other.verdict.bound; }
-};
 
 // Returns the initial boxes.
 std::vector<Box> first_boxes(const Domain& domain) {
@@ -91,19 +87,19 @@ double proven_bound(const TexelFunction& error, const Domain& domain, double tar
   const auto look_at = [&](const Box& box) {
     const TexelTaylor alpha = TexelTaylor::variable(0, centre(box.alpha), half_width(box.alpha));
     const TexelTaylor specular = TexelTaylor::variable(1, centre(box.specular), half_width(box.specular));
-    const Verdict found = verdict(error(alpha, specular), box);
+    const JudgedBox found = judged(box, error(alpha, specular));
     at_least = std::max(at_least, found.at_least);
-    queue.push({found, box});
+    queue.push(found);
   };
   const std::vector<Box> boxes = first_boxes(domain);
   for (const Box& box : boxes) look_at(box);
   for (std::size_t looked = boxes.size();
-       queue.top().verdict.bound > target && !(at_least > target) && looked < budget; looked += 2) {
+       queue.top().bound > target && !(at_least > target) && looked < budget; looked += 2) {
     const JudgedBox worst = queue.top();
     queue.pop();
-    for (const Box& half : halves(worst.box, worst.verdict.halve_alpha)) look_at(half);
+    for (const Box& half : halves(worst.box, worst.halve_alpha)) look_at(half);
   }
-  return queue.top().verdict.bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
+  return queue.top().bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
 }
 
 // Returns the sum of the magnitudes of a factor's terms.

@@ -13,10 +13,7 @@
 namespace remap {
 
 // A SampleBlock holds samples of one source width, as indices into SweepOptions::samples.
-struct SampleBlock {
-  double alpha;
-  std::vector<std::size_t> samples;
-};
+using SampleBlock = std::vector<std::size_t>;
 
 // Samples are rounded to numbers that a user can type.
 inline constexpr int kSampleDigits = 9;

@@ -17,9 +17,11 @@ namespace remap {
 // This is the initial guess of a one-stage match, as fractions of the ranges of alpha, specular and diffuse.
 inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
 
-struct JointOptions {
-  bool free_diffuse = true;        // false: diffuse keeps the value of the guess
-  bool source_has_diffuse = true;  // false: diffuse 0 is an answer, not a bound that was hit
+// A DiffuseSearch decides how a match treats the target's diffuse.
+enum class DiffuseSearch {
+  kNone,            // it keeps the value of the guess
+  kFree,            // it is searched
+  kOfBlackDiffuse,  // it is searched; 0 is an answer, not a bound that was hit, as the source has no diffuse
 };
 
 // A JointChannel is one color channel of the source.
@@ -43,7 +45,7 @@ class JointMatcher {
  public:
   // A grey match has one channel. The channels' pictures must be as long as the target's. `target` must
   // outlive the matcher.
-  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
+  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, DiffuseSearch diffuse);
 
   // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
   // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
@@ -82,7 +84,7 @@ class JointMatcher {
 
   const TargetPictures& target_;
   std::vector<JointChannel> channels_;
-  JointOptions options_;
+  DiffuseSearch diffuse_;
   std::vector<Unknown> unknowns_;
   std::vector<bool> wanted_;  // coordinates that are searched
   double power_ = 0.0;

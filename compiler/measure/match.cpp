@@ -49,18 +49,14 @@ double quadratic_form(const std::vector<std::vector<double>>& matrix,
   return sum;
 }
 
-// A LossWindow holds the losses at neighbouring nodes, interpolated coefficient by coefficient.
-struct LossWindow {
-  std::array<std::vector<double>, kInterpolationNodes> losses;
-  LagrangeBasis::Values logs{};  // values of log(alpha)
-
-  std::vector<double> sum(const LagrangeBasis::Values& weights) const {
-    std::vector<double> total(losses.front().size());
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i)
-      for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
-    return total;
-  }
-};
+// Interpolates the losses at neighbouring nodes, coefficient by coefficient.
+std::vector<double> interpolated(const std::array<std::vector<double>, kInterpolationNodes>& losses,
+                                 const LagrangeBasis::Values& weights) {
+  std::vector<double> total(losses.front().size());
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
+  return total;
+}
 
 }  // namespace
 
@@ -149,17 +145,19 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   std::array<std::size_t, kInterpolationNodes> nodes{};
   std::iota(nodes.begin(), nodes.end(), first);
   bank_.prepare(nodes);
-  LossWindow window, window_of_means;
+  std::array<Polynomial, kInterpolationNodes> losses, losses_of_means;
+  LagrangeBasis::Values logs{};  // values of log(alpha)
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-    window.losses[i] = loss(products(first + i).all, coefficients);
-    window_of_means.losses[i] = loss(products(first + i).means, coefficients);
-    window.logs[i] = std::log(bank_.alpha(first + i));
+    losses[i] = loss(products(first + i).all, coefficients);
+    losses_of_means[i] = loss(products(first + i).means, coefficients);
+    logs[i] = std::log(bank_.alpha(first + i));
   }
   // Returns the derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0
   // there, so the change of the specular does not contribute.
   const auto derivative = [&](double x) {
-    const LagrangeBasis basis(window.logs, x);
-    return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
+    const LagrangeBasis basis(logs, x);
+    return polynomial_value(interpolated(losses, basis.derivative),
+                            least(interpolated(losses, basis.value)).at);
   };
 
   const bool at_edge = node == 0 || node + 1 == bank_.size();
@@ -172,8 +170,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     x = 0.5 * (low + high);
     (derivative(x) < 0.0 ? low : high) = x;
   }
-  const LagrangeBasis::Values at = LagrangeBasis(window.logs, x).value;
-  Match match = match_at(x, window.sum(at), window_of_means.sum(at), coefficients);
+  const LagrangeBasis::Values at = LagrangeBasis(logs, x).value;
+  Match match = match_at(x, interpolated(losses, at), interpolated(losses_of_means, at), coefficients);
   if (at_edge && !bracketed && match.status == RowStatus::kOk) match.status = RowStatus::kClamped;
   return match;
 }

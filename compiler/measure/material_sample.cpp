@@ -161,7 +161,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   }
   const std::size_t channel_count = channels.size();
   const bool is_black = std::ranges::all_of(channels, &JointChannel::is_black);
-  const JointMatcher matcher(*matching.target.pictures, std::move(channels), {true, true});
+  const JointMatcher matcher(*matching.target.pictures, std::move(channels), DiffuseSearch::kFree);
   if (is_black) {
     const RoleValues least = matcher.point_of({0.0, 0.0, 0.0});
     return {sample, target_values(matching, std::vector<RoleValues>(channel_count, least)), 0.0,

@@ -84,8 +84,7 @@ void add_comparison(const Renderer& renderer, const PairOptions& options, Commen
 
 void add_light_scale(const LightMatch& match, Comments* comments) {
   comments->emplace_back(kLightScaleComment, number_text(match.scale));
-  const auto unaccepted = light_remark({match.scale, match.diffuse_error, false});
-  if (match.accepted && unaccepted && unaccepted->is_error)
+  if (match.accepted && is_wrong_light({match.scale, match.diffuse_error, false}))
     comments->emplace_back(kLightAcceptedComment, "yes");
 }
 

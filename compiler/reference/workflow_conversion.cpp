@@ -24,36 +24,32 @@ namespace {
 
 namespace code = workflow_code;
 
-struct Name {
-  std::string_view operator()(const Equation2&) const { return "equation-2"; }
-  std::string_view operator()(const Projection&) const { return "projection"; }
-  std::string_view operator()(const Equation3&) const { return "equation-3"; }
-  std::string_view operator()(const KhronosSolver&) const { return "khronos"; }
-  std::string_view operator()(const LearnedNetwork&) const { return "network"; }
-};
+std::string_view name_of(const Equation2&) { return "equation-2"; }
+std::string_view name_of(const Projection&) { return "projection"; }
+std::string_view name_of(const Equation3&) { return "equation-3"; }
+std::string_view name_of(const KhronosSolver&) { return "khronos"; }
+std::string_view name_of(const LearnedNetwork&) { return "network"; }
 
-struct Text {
-  std::string operator()(const Equation2&) const {
-    return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
-  }
-  std::string operator()(const Projection& projection) const {
-    return "least difference of the pictures over base color and metallic, prior " +
-           number_text(projection.prior);
-  }
-  std::string operator()(const Equation3& equation) const {
-    return std::string("equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels") +
-           (equation.mean == MetallicMean::kAlbedo ? ", weighted by albedo" : "");
-  }
-  std::string operator()(const KhronosSolver&) const {
-    return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
-  }
-  std::string operator()(const LearnedNetwork& learned) const {
-    std::string sizes = std::to_string(learned.network.inputs.size());
-    for (const Layer& layer : learned.network.layers) sizes += " x " + std::to_string(layer.output_count());
-    return "a network of " + sizes + " (" + std::string(activation_name(learned.network.activation)) +
-           "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
-  }
-};
+std::string text_of(const Equation2&) {
+  return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+}
+std::string text_of(const Projection& projection) {
+  return "least difference of the pictures over base color and metallic, prior " +
+         number_text(projection.prior);
+}
+std::string text_of(const Equation3& equation) {
+  return std::string("equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels") +
+         (equation.mean == MetallicMean::kAlbedo ? ", weighted by albedo" : "");
+}
+std::string text_of(const KhronosSolver&) {
+  return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
+}
+std::string text_of(const LearnedNetwork& learned) {
+  std::string sizes = std::to_string(learned.network.inputs.size());
+  for (const Layer& layer : learned.network.layers) sizes += " x " + std::to_string(layer.output_count());
+  return "a network of " + sizes + " (" + std::string(activation_name(learned.network.activation)) +
+         "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
+}
 
 constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
 
@@ -102,9 +98,33 @@ std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what
   return all;
 }
 
-// Interprets a network in double precision, texel by texel.
-std::size_t interpret(const Network& network, const code::Conventions& use,
-                      const std::array<const float*, 7>& in, const std::array<float*, 5>& out) {
+// Each block_by() converts a block to metallic by a formula. It returns the number of texels outside.
+using SpecularBlock = std::array<const float*, 7>;
+using MetallicBlock = std::array<float*, 5>;
+
+// Equation (2) leads to the specular workflow only.
+std::size_t block_by(const Equation2&, const code::Conventions&, const SpecularBlock&, const MetallicBlock&) {
+  return 0;
+}
+
+std::size_t block_by(const Projection& projection, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  return code::project(use, static_cast<float>(projection.prior), in, out);
+}
+
+std::size_t block_by(const Equation3& equation, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  return code::solve_equation_3(use, equation.mean == MetallicMean::kAlbedo, in, out);
+}
+
+std::size_t block_by(const KhronosSolver&, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  return code::solve_khronos(use, in, out);
+}
+
+// Interprets the network in double precision, texel by texel.
+std::size_t block_by(const LearnedNetwork& learned, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
   code::ClampedBlock<7, code::kMetallicBlock> block;
   const std::size_t outside = code::hold(in, block, std::make_index_sequence<7>());
   for (std::size_t i = 0; i < code::kMetallicBlock; ++i) {
@@ -114,7 +134,7 @@ std::size_t interpret(const Network& network, const code::Conventions& use,
       values.push_back(static_cast<double>(block.row[r][i]));
       is_nan = is_nan || std::isnan(block.row[r][i]);
     }
-    const std::vector<double> outputs = network_outputs(network, std::move(values));
+    const std::vector<double> outputs = network_outputs(learned.network, std::move(values));
     for (std::size_t r = 0; r < outputs.size(); ++r)
       out[r][i] = is_nan ? std::numeric_limits<float>::quiet_NaN()
                          : static_cast<float>(std::clamp(outputs[r], 0.0, 1.0));
@@ -122,25 +142,6 @@ std::size_t interpret(const Network& network, const code::Conventions& use,
   code::write_width(use, block, out[4]);
   return outside;
 }
-
-// ConvertBlock converts a block to metallic by a formula.
-struct ConvertBlock {
-  const code::Conventions& use;
-  const std::array<const float*, 7>& in;
-  const std::array<float*, 5>& out;
-
-  std::size_t operator()(const Equation2&) const { return 0; }
-  std::size_t operator()(const Projection& projection) const {
-    return code::project(use, static_cast<float>(projection.prior), in, out);
-  }
-  std::size_t operator()(const Equation3& equation) const {
-    return code::solve_equation_3(use, equation.mean == MetallicMean::kAlbedo, in, out);
-  }
-  std::size_t operator()(const KhronosSolver&) const { return code::solve_khronos(use, in, out); }
-  std::size_t operator()(const LearnedNetwork& learned) const {
-    return interpret(learned.network, use, in, out);
-  }
-};
 
 void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
   if (conversion.is_to_metallic() == to_metallic) return;
@@ -165,9 +166,13 @@ float width_of(const code::Texel& texel, const code::Conventions& use) {
 
 }  // namespace
 
-std::string_view formula_name(const WorkflowFormula& formula) { return std::visit(Name{}, formula); }
+std::string_view formula_name(const WorkflowFormula& formula) {
+  return std::visit([](const auto& kind) { return name_of(kind); }, formula);
+}
 
-std::string formula_text(const WorkflowFormula& formula) { return std::visit(Text{}, formula); }
+std::string formula_text(const WorkflowFormula& formula) {
+  return std::visit([](const auto& kind) { return text_of(kind); }, formula);
+}
 
 void require_valid(const WorkflowConversion& conversion, const std::string& context) {
   require_valid(conversion.specular, conversion.metallic, context);
@@ -211,7 +216,8 @@ std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t c
   const auto targets = rows<5>(out, "metallic materials");
   return code::convert_rows<code::kMetallicBlock>(
       count, sources, targets, [&](const auto& from, const auto& to) {
-        return std::visit(ConvertBlock{use, from, to}, conversion.formula);
+        return std::visit([&](const auto& kind) { return block_by(kind, use, from, to); },
+                          conversion.formula);
       });
 }
 

@@ -59,8 +59,8 @@ class Findings {
   void add_light(const Comments& comments, bool accept_light) {
     LightMatch match = light_match(comments);
     match.accepted = match.accepted || accept_light;
-    if (const auto remark = light_remark(match))
-      add(remark->is_error ? Severity::kError : Severity::kWarning, "light", 0, remark->text);
+    if (const std::string remark = light_remark(match); !remark.empty())
+      add(is_wrong_light(match) ? Severity::kError : Severity::kWarning, "light", 0, remark);
   }
   std::vector<Finding> sorted() {
     std::stable_sort(all_.begin(), all_.end(), [](const Finding& a, const Finding& b) {
@@ -94,24 +94,23 @@ class TableCheck : Findings {
   }
 
  private:
+  void check_range(const TableRow& row, const std::string& name, double value, bool may_be_zero) {
+    const std::string found = name + " is " + number_text(value);
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero))
+      add(Severity::kError, "range", row.line,
+          found + " (must be " + (may_be_zero ? "0 or more" : "above 0") + ")");
+    else if (value > 1.0)
+      add(Severity::kWarning, "range", row.line, found + "; physical values end at 1");
+  }
+
   void check_ranges() {
     for (const TableRow& row : table_.rows) {
-      const struct {
-        const char* name;
-        double value;
-        bool open;  // true if 0 itself is not allowed
-      } cells[] = {{"alpha1", row.alpha1, true},      {"specular1", row.specular1, false},
-                   {"alpha2", row.alpha2, true},      {"specular2", row.specular2, false},
-                   {"diffuse1", row.diffuse1, false}, {"diffuse2", row.diffuse2, false}};
-      for (const auto& cell : cells) {
-        const std::string found = std::string(cell.name) + " is " + number_text(cell.value);
-        const bool possible = std::isfinite(cell.value) && (cell.open ? cell.value > 0.0 : cell.value >= 0.0);
-        if (!possible)
-          add(Severity::kError, "range", row.line,
-              found + " (must be " + (cell.open ? "above 0" : "0 or more") + ")");
-        else if (cell.value > 1.0)
-          add(Severity::kWarning, "range", row.line, found + "; physical values end at 1");
-      }
+      check_range(row, "alpha1", row.alpha1, false);
+      check_range(row, "specular1", row.specular1, true);
+      check_range(row, "alpha2", row.alpha2, false);
+      check_range(row, "specular2", row.specular2, true);
+      check_range(row, "diffuse1", row.diffuse1, true);
+      check_range(row, "diffuse2", row.diffuse2, true);
     }
   }
 

@@ -34,10 +34,6 @@ void listen(const char* message) {
   std::from_chars(begin, text.data() + text.size(), iteration_count);
 }
 
-struct ModelDeleter {
-  void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
-};
-
 // An OwnedProblem holds the samples in libsvm's format: a list of (index, value) per sample that ends with
 // index -1.
 struct OwnedProblem {
@@ -120,7 +116,9 @@ std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
     throw usage_error(std::string("libsvm refused the hyper-parameters: ") + refusal);
   iteration_count = 0;
   // The model refers to the lists of `problem`, which must outlive it.
-  const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));
+  const std::unique_ptr<svm_model, void (*)(svm_model*)> model(
+      svm_train(&problem.problem, &settings),
+      [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };

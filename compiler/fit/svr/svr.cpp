@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 #include <string_view>
 
 #include "core/errors.hpp"
@@ -37,20 +38,15 @@ Scaling scaling_of(const std::vector<double>& values) {
 // Computes the mean output of the rows with the same inputs, sorted by inputs.
 Problem make_problem(const std::string& name, const std::vector<TableRow>& rows, std::size_t input_count,
                      double TableRow::*output) {
-  struct Mean {
-    double sum = 0.0, count = 0.0;
-  };
-  std::map<std::array<double, 2>, Mean> means;
-  for (const TableRow& row : rows) {
-    Mean& mean = means[{row.alpha1, input_count > 1 ? row.specular1 : 0.0}];
-    mean.sum += row.*output;
-    mean.count += 1.0;
-  }
+  std::map<std::array<double, 2>, std::vector<double>> outputs_of;
+  for (const TableRow& row : rows)
+    outputs_of[{row.alpha1, input_count > 1 ? row.specular1 : 0.0}].push_back(row.*output);
   std::array<std::vector<double>, 2> inputs;
   std::vector<double> outputs;
-  for (const auto& [input, mean] : means) {
+  for (const auto& [input, values] : outputs_of) {
     for (std::size_t j = 0; j < input_count; ++j) inputs[j].push_back(input[j]);
-    outputs.push_back(mean.sum / mean.count);
+    outputs.push_back(std::accumulate(values.begin(), values.end(), 0.0) /
+                      static_cast<double>(values.size()));
   }
   Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
   problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it

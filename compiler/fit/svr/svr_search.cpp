@@ -47,12 +47,8 @@ constexpr int kFirstStep = 2, kLargestRounds = 8;
 // The training time is inversely proportional to the width of the tube, so only small problems use narrow
 // tubes.
 constexpr std::size_t kSmallProblem = 100;
-struct TubeRange {
-  int start, narrowest;
-};
-constexpr TubeRange tube_range(std::size_t sample_count) {
-  return sample_count <= kSmallProblem ? TubeRange{-16, -16} : TubeRange{-12, -14};
-}
+constexpr int first_tube(std::size_t sample_count) { return sample_count <= kSmallProblem ? -16 : -12; }
+constexpr int narrowest_tube(std::size_t sample_count) { return sample_count <= kSmallProblem ? -16 : -14; }
 
 // Returns 10^(step / 4), rounded to two digits to keep records short.
 double value_of(int step) {
@@ -301,7 +297,7 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed,
 
   Contest coarse = contest(kGridSamples);
   coarse.report_to(part_of(progress, 0.0, 0.2));
-  coarse.enter(grid(samples.input_count, tube_range(samples.count()).start));
+  coarse.enter(grid(samples.input_count, first_tube(samples.count())));
   Point centre = coarse.best().point;
 
   Contest fine = contest(kPatternSamples);
@@ -320,7 +316,7 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed,
 
   Contest tube = contest(kTubeSamples);
   tube.report_to(part_of(progress, 0.7, 1.0));
-  centre = choose_tube(tube, centre, tube_range(samples.count()).narrowest);
+  centre = choose_tube(tube, centre, narrowest_tube(samples.count()));
 
   choice.parameters = parameters_at(centre);
   choice.rms = tube.at(centre).rms();
