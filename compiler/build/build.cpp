@@ -53,7 +53,7 @@ class Builder {
   BuildResult run() {
     forget_vanished();
     std::vector<const ManifestItem*> waiting;
-    for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
+    for (const ManifestItem& item : manifest_) waiting.push_back(&item);
     while (!waiting.empty()) {
       // Start with the items whose inputs are built. The order of a manifest guarantees that there are some.
       std::vector<const ManifestItem*> ready, later;
@@ -89,7 +89,7 @@ class Builder {
   // delete the fit.
   void forget_vanished() {
     std::set<std::string> kept;
-    for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
+    for (const ManifestItem& item : manifest_) kept.insert(item.id);
     for (const std::string& id : vanished_items(manifest_, folders_, last_lock_)) {
       if (execution_.prune && prune(id))
         pruned_.push_back(id);
@@ -126,7 +126,7 @@ class Builder {
       const Stopwatch stopwatch;
       if (!fresh.table && keeps_table(item, &record, &built.kept_table)) fresh.table = true;
       make(item, fresh, &record, &built);
-      built.seconds.all = stopwatch.seconds();
+      built.seconds = stopwatch.seconds();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
@@ -144,7 +144,7 @@ class Builder {
       built_.push_back(std::move(built));
     }
     ++done_;
-    if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+    if (execution_.progress) execution_.progress(done_, manifest_.size());
   }
 
   // Returns true if the table of the last build can be reused because its renderer is not installed.
@@ -178,7 +178,7 @@ class Builder {
       if (auto* of_width = std::get_if<Fit>(&fit)) {
         const Stopwatch stopwatch;
         add_converter(of_width);
-        built->seconds.lowering = stopwatch.seconds();
+        built->lowering_seconds = stopwatch.seconds();
       }
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
       write_file(paths.fit, text);
@@ -195,9 +195,9 @@ class Builder {
     const TimedRenderer renderer(renderer_);
     const Stopwatch stopwatch;
     auto result = made(renderer);
-    built->seconds.sweep = stopwatch.seconds();
+    built->sweep_seconds = stopwatch.seconds();
     built->pictures = renderer.picture_count();
-    built->seconds.pictures = renderer.seconds();
+    built->picture_seconds = renderer.seconds();
     return result;
   }
 
@@ -206,19 +206,18 @@ class Builder {
       const std::string bytes = read_file(paths_of(folders_, inverse->of).fit);
       return inverse_table(fit_from_json(bytes, inverse->of), bytes);
     }
-    const auto& [source, target, recipe] = std::get<SweptItem>(item.kind);
+    const auto& swept = std::get<SweptItem>(item.kind);
     SweepOptions options;
-    options.source = source;
-    options.target = target;
-    options.objective = recipe.objective;
+    options.source = swept.source;
+    options.target = swept.target;
+    options.objective = swept.objective;
     options.accept_light = item.accept_light;
-    options.resolution = recipe.resolution;
-    Range speculars = canonical_speculars(renderer_, renderer_.model(source));
-    if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
+    options.resolution = swept.resolution;
+    Range speculars = canonical_speculars(renderer_, renderer_.model(swept.source));
+    if (const auto part = swept.speculars.find(swept.source); part != swept.speculars.end())
       speculars = {std::max(speculars.min, part->second.min), std::min(speculars.max, part->second.max)};
-    options.samples =
-        grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
-    options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    options.samples = grid_samples(swept.alphas, swept.roughness_samples, speculars, swept.specular_samples);
+    options.sampling = grid_text(swept.alphas, swept.roughness_samples, speculars, swept.specular_samples);
     return with_pictures(built, [&](const Renderer& renderer) {
       return run_sweep(renderer, options, {1, {}, execution_.cancelled});
     });
@@ -237,7 +236,7 @@ class Builder {
     options.accept_light = item.accept_light;
     Fit fit =
         fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
-    built->seconds.fit = stopwatch.seconds();
+    built->fit_seconds = stopwatch.seconds();
     return fit;
   }
 
@@ -270,7 +269,7 @@ class Builder {
     options.jobs = 1;
     WorkflowFit fit = fit_material_network(parse_material_table(bytes, item.id + ".csv"), bytes, options,
                                            [&](double) { require_time(); });
-    built->seconds.fit = stopwatch.seconds();
+    built->fit_seconds = stopwatch.seconds();
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)
@@ -305,7 +304,7 @@ class Builder {
   // The report takes a second to compute, so it is written only if it changed.
   void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
-    for (const ReportFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
+    for (const EmittedFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
     lock_.report = report_hash(folders_);
   }
 
@@ -344,7 +343,7 @@ std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFol
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders) {
   const Lock lock = load_lock(folders.fits);
   std::vector<std::string> reasons;
-  for (const ManifestItem& item : manifest.items) {
+  for (const ManifestItem& item : manifest) {
     const Freshness fresh = freshness(item, folders, lock);
     if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
   }

@@ -83,7 +83,7 @@ bool has_report(const BuildFolders& folders, const Lock& lock) {
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
                                         const Lock& lock) {
   std::set<std::string> ids;
-  for (const ManifestItem& item : manifest.items) ids.insert(item.id);
+  for (const ManifestItem& item : manifest) ids.insert(item.id);
   std::vector<std::string> vanished;
   for (const auto& [id, item] : lock.items)
     if (!ids.contains(id) && fs::exists(paths_of(folders, id).fit)) vanished.push_back(id);

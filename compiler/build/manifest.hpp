@@ -17,20 +17,15 @@ namespace remap {
 inline constexpr const char* kManifestName = "manifest.json";
 inline constexpr int kManifestVersion = 1;
 
-// A SweepRecipe decides how a group of pairs is swept and fitted.
-struct SweepRecipe {
+// A ManifestItem is one converter. SweptItem and NetworkItem need a renderer.
+struct SweptItem {  // a pair of models, built-in or of real renderers
+  std::string source, target;
   Objective objective;
   int resolution = 512;
   Range alphas{0.01, 1.0};
   std::size_t roughness_samples = 30;
   std::size_t specular_samples = 30;
   std::map<std::string, Range> speculars;  // canonical, by source model; if missing, the whole range
-};
-
-// A ManifestItem is one converter. SweptItem and NetworkItem need a renderer.
-struct SweptItem {  // a pair of models, built-in or of real renderers
-  std::string source, target;
-  SweepRecipe recipe;
 };
 struct InverseItem {  // the inverse of another item's fit
   std::string of;
@@ -67,9 +62,7 @@ struct ManifestItem {
 };
 
 // A Manifest holds the items, each after its inputs.
-struct Manifest {
-  std::vector<ManifestItem> items;
-};
+using Manifest = std::vector<ManifestItem>;
 
 // Reads the text of a manifest. Throws kInput, beginning with `context`, for text that is not a manifest of
 // version kManifestVersion. Also throws it for an id that is defined twice or is not an identifier, and for

@@ -72,7 +72,7 @@ struct Tree {
 };
 
 template <std::size_t kDimension>
-auto finder_of(const Points& positions) {
+NearestTexel nearest_in(const Points& positions) {
   return [tree = std::make_shared<const Tree<kDimension>>(positions)](const Points& points) {
     return tree->find(points);
   };
@@ -80,13 +80,10 @@ auto finder_of(const Points& positions) {
 
 }  // namespace
 
-NearestTexel::NearestTexel(const Points& positions) {
-  if (positions.cols() == 1)
-    find_ = finder_of<1>(positions);
-  else if (positions.cols() == 2)
-    find_ = finder_of<2>(positions);
-  else
-    find_ = finder_of<3>(positions);
+NearestTexel nearest_texel(const Points& positions) {
+  if (positions.cols() == 1) return nearest_in<1>(positions);
+  if (positions.cols() == 2) return nearest_in<2>(positions);
+  return nearest_in<3>(positions);
 }
 
 }  // namespace remap

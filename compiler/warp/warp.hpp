@@ -33,12 +33,7 @@ struct WarpDiagnostics {
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance
   std::vector<std::string> strokes;                      // names of the strokes, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
-  // A SharedStroke is the stroke that another stroke covers most, in either material.
-  struct SharedStroke {
-    std::size_t stroke = 0;  // index of the stroke
-    Overlap overlap;
-    bool in_template = false;
-  } shared;
+  Overlap shared;                                        // the largest overlap in either material
 };
 
 // An AppearanceMatch holds the positions of the texels of both materials, and the warp between the positions.

@@ -86,7 +86,7 @@ double tears(const WarpSet& set, const WarpFit& fit) {
   const Points positions = positions_of(fit.compiled.coordinates, set.source.texels);
   Points beside = positions;
   beside.col(0).array() += 0.02;
-  const auto neighbours = NearestTexel(positions).find(beside);
+  const auto neighbours = nearest_texel(positions)(beside);
   double torn = 0.0, count = 0.0;
   for (std::size_t i = 0; i < copy.size(); i += 13, count += 1.0) {
     const auto own = features_of(features.target, set.target.texels[copy[i]]);
