@@ -43,7 +43,7 @@ struct FitCommand {
   FitOptions options;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
-  double tolerance = 1e-3;  // tolerance of lowering
+  double tolerance = kLoweringTolerance;
   bool swap = false, force = false, json = false;
 };
 
@@ -178,7 +178,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
 // Keeps a fit for remapc even if it cannot be lowered. Only texremap and headers need its converter.
 void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
-    add_converter(fit, {command.tolerance, command.tolerance});
+    add_converter(fit, command.tolerance);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNumeric) throw;
     print_message("remapc", "warning: " + fit->id +

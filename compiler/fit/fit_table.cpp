@@ -8,7 +8,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "fit/comparison.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
@@ -101,13 +100,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
     judge_fit(split, pictures.get(), &fit);
     return {fit, {}};
   }
-  const Comparison comparison = compare_forms(fit, split, pictures.get(), progress);
-  FittedTable fitted{comparison.candidates[comparison.chosen].fit, {}};
-  for (const Candidate& candidate : comparison.candidates) {
-    fitted.fit.candidates.push_back(candidate.record);
-    if (candidate.fit.id == fit.id) fitted.compared.push_back(candidate.fit);
-  }
-  return fitted;
+  return compare_forms(fit, split, pictures.get(), progress);
 }
 
 }  // namespace remap

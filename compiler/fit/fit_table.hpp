@@ -7,17 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "fit/comparison.hpp"
 #include "fit/kinds.hpp"
 #include "lower/fit.hpp"
 #include "table/table.hpp"
 
 namespace remap {
-
-// A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
-struct FittedTable {
-  Fit fit;
-  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
-};
 
 // Fits `table`. `bytes` is its file, whose SHA-256 the fit records. Throws kInput if the table does not name
 // its models or cannot be fitted (require_fittable), kUsage for an invalid id, and the errors of the

@@ -322,7 +322,7 @@ const MaterialInput* MaterialModel::find(std::string_view name) const {
 
 std::vector<std::string> Translation::ignored() const {
   std::vector<std::string> used, unused;
-  for (const TranslationLine& line : lines) collect_names(line.statement.value, used);
+  for (const Statement& line : lines) collect_names(line.value, used);
   for (const MaterialInput& input : from->inputs)
     if (std::ranges::find(used, "source." + input.name) == used.end()) unused.push_back(input.name);
   return unused;
@@ -390,7 +390,7 @@ Translation parse_translation(std::string_view text, const std::string& name, co
         throw input_error("'" + left + "' is the name of an input (choose another)");
       }
       if (!names.emplace(left, type).second) throw input_error("'" + left + "' has a value already");
-      translation.lines.push_back({line.comment, {left, type, std::move(value)}});
+      translation.lines.push_back({left, type, std::move(value), line.comment});
     });
   return translation;
 }

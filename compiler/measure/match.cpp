@@ -77,27 +77,27 @@ Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, 
   }
 }
 
-const Matcher::NodeProducts& Matcher::products(std::size_t node) {
+const Matcher::Products& Matcher::products(std::size_t node) {
   const auto known = products_.find(node);
   if (known != products_.end()) return known->second;
   const std::vector<std::vector<float>>& pictures = bank_.pictures(node);
   const std::vector<Polynomial>& weights = bank_.family().weights;
-  NodeProducts p;
+  Products p;
   for (std::size_t j = 0; j < pictures.size(); ++j)
     for (std::size_t k = j; k < pictures.size(); ++k) {
       const double count = j == k ? 1.0 : 2.0;
       const Polynomial polynomial = polynomial_product(weights[j], weights[k]);
       add(count * weighted_product(weights_.squared.data(), pictures[j].data(), pictures[k].data(),
                                    weights_.squared.size()),
-          polynomial, &p.all.power);
-      add(count * part_product(weights_, pictures[j], pictures[k]), polynomial, &p.means.power);
+          polynomial, &p.power);
+      add(count * part_product(weights_, pictures[j], pictures[k]), polynomial, &p.power_of_means);
     }
   for (const auto& source : weighted_basis_) {
-    p.all.cross.emplace_back();
-    p.means.cross.emplace_back();
+    p.cross.emplace_back();
+    p.cross_of_means.emplace_back();
     for (std::size_t k = 0; k < pictures.size(); ++k) {
-      add(inner_product(source.data(), pictures[k].data(), source.size()), weights[k], &p.all.cross.back());
-      add(part_product(weights_.means, source, pictures[k]), weights[k], &p.means.cross.back());
+      add(inner_product(source.data(), pictures[k].data(), source.size()), weights[k], &p.cross.back());
+      add(part_product(weights_.means, source, pictures[k]), weights[k], &p.cross_of_means.back());
     }
   }
   return products_.emplace(node, std::move(p)).first->second;
@@ -105,12 +105,13 @@ const Matcher::NodeProducts& Matcher::products(std::size_t node) {
 
 // Returns |I - T|^2 = II - 2 IT + TT, all weighted. It omits II, which does not depend on the target, so that
 // refine() can differentiate the rest without cancellation.
-Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) {
-  Polynomial result = products.power;
-  Polynomial cross(products.cross.front().size());
+Matcher::Polynomial Matcher::loss(const Polynomial& power, const std::vector<Polynomial>& cross,
+                                  const std::vector<double>& coefficients) {
+  Polynomial result = power;
+  Polynomial sum(cross.front().size());
   for (std::size_t b = 0; b < coefficients.size(); ++b)
-    for (std::size_t i = 0; i < cross.size(); ++i) cross[i] += coefficients[b] * products.cross[b][i];
-  for (std::size_t i = 0; i < cross.size(); ++i) result[i] -= 2.0 * cross[i];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += coefficients[b] * cross[b][i];
+  for (std::size_t i = 0; i < sum.size(); ++i) result[i] -= 2.0 * sum[i];
   return result;
 }
 
@@ -119,7 +120,8 @@ PolynomialMinimum Matcher::least(const Polynomial& loss) const {
 }
 
 double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
-  return least(loss(products(node).all, coefficients)).value;
+  const Products& p = products(node);
+  return least(loss(p.power, p.cross, coefficients)).value;
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
@@ -148,8 +150,9 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   std::array<Polynomial, kInterpolationNodes> losses, losses_of_means;
   LagrangeBasis::Values logs{};  // values of log(alpha)
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-    losses[i] = loss(products(first + i).all, coefficients);
-    losses_of_means[i] = loss(products(first + i).means, coefficients);
+    const Products& p = products(first + i);
+    losses[i] = loss(p.power, p.cross, coefficients);
+    losses_of_means[i] = loss(p.power_of_means, p.cross_of_means, coefficients);
     logs[i] = std::log(bank_.alpha(first + i));
   }
   // Returns the derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0

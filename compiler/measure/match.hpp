@@ -38,17 +38,15 @@ class Matcher {
   // A Polynomial is a polynomial in the coordinate of the bank's family.
   using Polynomial = std::vector<double>;
   // A Products holds weighted inner products at one bank node: of the target's picture with itself, and with
-  // each basis picture.
+  // each basis picture, over all samples and over only the means.
   struct Products {
-    Polynomial power;
-    std::vector<Polynomial> cross;
-  };
-  struct NodeProducts {
-    Products all, means;
+    Polynomial power, power_of_means;
+    std::vector<Polynomial> cross, cross_of_means;
   };
 
-  const NodeProducts& products(std::size_t node);
-  static Polynomial loss(const Products& products, const std::vector<double>& coefficients);
+  const Products& products(std::size_t node);
+  static Polynomial loss(const Polynomial& power, const std::vector<Polynomial>& cross,
+                         const std::vector<double>& coefficients);
   PolynomialMinimum least(const Polynomial& loss) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
   std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
@@ -63,7 +61,7 @@ class Matcher {
   std::vector<std::vector<float>> weighted_basis_;
   // These are Gram matrices of the basis pictures, over all samples and over only the means.
   std::vector<std::vector<double>> power_, power_of_means_;
-  std::map<std::size_t, NodeProducts> products_;
+  std::map<std::size_t, Products> products_;
 };
 
 }  // namespace remap

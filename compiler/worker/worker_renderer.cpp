@@ -170,10 +170,10 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
 
 std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const {
   if (!cache_) return std::nullopt;
-  PictureCache::Found found = cache_->find(request);
-  if (!found.damage.empty() && damaged_++ == 0)
-    warn_of_cache(found.damage + " (the picture is rendered again)");
-  return std::move(found.image);
+  std::string damage;
+  std::optional<Image> image = cache_->find(request, damage);
+  if (!damage.empty() && damaged_++ == 0) warn_of_cache(damage + " (the picture is rendered again)");
+  return image;
 }
 
 void WorkerRenderer::keep(const PictureRequest& request, const Image& image) const {

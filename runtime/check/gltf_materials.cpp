@@ -132,27 +132,18 @@ class WholeFile final : public ByteSource {
   std::string bytes_;
 };
 
-class FilesBeside final : public AssetFiles {
- public:
-  explicit FilesBeside(fs::path folder) : folder_(std::move(folder)) {}
-  std::unique_ptr<ByteSource> open(const std::string& path) const override {
-    return std::make_unique<WholeFile>(folder_ / path);
-  }
-
- private:
-  fs::path folder_;
-};
-
 class GltfMaterials {
  public:
   GltfMaterials(const fs::path& file, FoundMaterials& found)
       : file_(file),
         found_(found),
         source_(file),
-        beside_(file.parent_path()),
         container_(read_container(source_, display_path(file))),
         json_(container_.json, display_path(file)),
-        bytes_(json_, container_, source_, beside_),
+        bytes_(json_, container_, source_,
+               [folder = file.parent_path()](const std::string& path) {
+                 return std::make_unique<WholeFile>(folder / path);
+               }),
         textures_(json_.root()["textures"].entries()),
         images_(json_.root()["images"].entries()) {}
 
@@ -287,7 +278,6 @@ class GltfMaterials {
   const fs::path& file_;
   FoundMaterials& found_;
   WholeFile source_;
-  FilesBeside beside_;
   GltfContainer container_;
   SpannedJson json_;
   GltfBytes bytes_;

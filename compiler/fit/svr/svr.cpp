@@ -23,7 +23,7 @@ constexpr double kSoftening = 0.1;
 // A Problem is one output of the table with its scalings.
 struct Problem {
   std::string name;  // `alpha` or `specular`, as in `method`
-  SvrSamples samples;
+  Samples samples;
   std::vector<Scaling> inputs;
   Scaling output;
 };
@@ -48,7 +48,7 @@ Problem make_problem(const std::string& name, const std::vector<TableRow>& rows,
     outputs.push_back(std::accumulate(values.begin(), values.end(), 0.0) /
                       static_cast<double>(values.size()));
   }
-  Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
+  Problem problem{name, {input_count, 1, {}, {}}, {}, scaling_of(outputs)};
   problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -72,7 +72,7 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
 }
 
 // Trains on `samples`. If C was searched, it is reduced until libsvm converges.
-KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
+KernelExpansion train(const std::string& name, const Samples& samples, bool is_given,
                       SvrHyperParameters& parameters) {
   for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
     if (softening > 0) parameters.cost *= kSoftening;
@@ -103,7 +103,7 @@ KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParamet
     record("search_samples", std::to_string(choice.sample_count));
     record("cross_validation_rms", number_text(choice.rms / problem.output.scale));
   }
-  const SvrSamples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
+  const Samples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
   KernelExpansion expansion = train(problem.name, training, is_given, parameters);
   if (expansion.inputs.size() > 1)
     expansion.inputs[1] = {problem.inputs[1].offset, problem.inputs[1].scale * expansion.inputs[1].scale};

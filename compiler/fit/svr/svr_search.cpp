@@ -66,12 +66,8 @@ SvrHyperParameters parameters_at(const Point& point) {
           pole_of(point[kPole])};
 }
 
-struct FoldedSamples {
-  SvrSamples samples;
-  std::vector<std::size_t> fold;  // fold in which each sample is held out; kNeverJudges: it is never held out
-};
-
-FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
+// Returns the fold in which each sample is held out, or kNeverJudges.
+std::vector<std::size_t> folds_of(const Samples& samples, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<std::size_t> fold(samples.count());
   std::array<std::size_t, kFolds> order{};
@@ -83,7 +79,7 @@ FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
     fold[i] = order[i % kFolds];
   }
   if (samples.input_count == 1) fold.front() = fold.back() = kNeverJudges;
-  return {std::move(samples), std::move(fold)};
+  return fold;
 }
 
 struct Judgement {
@@ -92,11 +88,12 @@ struct Judgement {
   std::size_t vector_count = 0;
 };
 
-Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameters, std::size_t fold) {
-  const SvrSamples& all = folded.samples;
-  SvrSamples training{all.input_count, {}, {}};
+// Trains on the samples of the other folds and judges the samples of `fold`.
+Judgement judge(const Samples& all, const std::vector<std::size_t>& folds,
+                const SvrHyperParameters& parameters, std::size_t fold) {
+  Samples training{all.input_count, 1, {}, {}};
   for (std::size_t i = 0; i < all.count(); ++i) {
-    if (folded.fold[i] == fold) continue;
+    if (folds[i] == fold) continue;
     const auto begin = all.inputs.begin() + static_cast<std::ptrdiff_t>(i * all.input_count);
     training.inputs.insert(training.inputs.end(), begin,
                            begin + static_cast<std::ptrdiff_t>(all.input_count));
@@ -105,7 +102,7 @@ Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameter
   const auto expansion = train_expansion(training, parameters);
   Judgement judgement;
   for (std::size_t i = 0; i < all.count(); ++i) {
-    if (folded.fold[i] != fold) continue;
+    if (folds[i] != fold) continue;
     ++judgement.count;
     if (!expansion) continue;
     const double specular = all.input_count > 1 ? all.inputs[2 * i + 1] : 0.0;
@@ -153,7 +150,8 @@ struct Trial {
 // A Contest holds the candidates of one stage. Each point is evaluated once.
 class Contest {
  public:
-  Contest(FoldedSamples folded, unsigned jobs) : folded_(std::move(folded)), jobs_(jobs) {}
+  Contest(Samples samples, std::uint64_t seed, unsigned jobs)
+      : samples_(std::move(samples)), folds_(folds_of(samples_, seed)), jobs_(jobs) {}
 
   // Evaluates the new `points` on the first folds, and the promising ones on the other folds.
   void enter(const std::vector<Point>& points) {
@@ -199,7 +197,7 @@ class Contest {
 
   const Trial& at(const Point& point) const { return candidates_.at(point); }
   std::size_t size() const { return candidates_.size(); }
-  std::size_t sample_count() const { return folded_.samples.count(); }
+  std::size_t sample_count() const { return samples_.count(); }
   void report_to(FitProgress progress) { progress_ = std::move(progress); }
 
  private:
@@ -213,7 +211,7 @@ class Contest {
     run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
       Trial& candidate = *entered[task / folds];
       const std::size_t fold = begin + task % folds;
-      candidate.folds[fold] = judge(folded_, parameters_at(candidate.point), fold);
+      candidate.folds[fold] = judge(samples_, folds_, parameters_at(candidate.point), fold);
       const std::lock_guard lock(mutex);
       ++done;
       const double share = static_cast<double>(done) / static_cast<double>(entered.size() * folds);
@@ -221,7 +219,8 @@ class Contest {
     });
   }
 
-  FoldedSamples folded_;
+  Samples samples_;
+  std::vector<std::size_t> folds_;
   unsigned jobs_;
   FitProgress progress_;
   std::map<Point, Trial> candidates_;
@@ -273,10 +272,10 @@ Point choose_tube(Contest& contest, const Point& start, int narrowest) {
 
 }  // namespace
 
-SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed) {
+Samples draw_evenly(const Samples& samples, std::size_t count, std::uint64_t seed) {
   if (samples.count() <= count) return samples;
   std::mt19937_64 random(seed);
-  SvrSamples drawn{samples.input_count, {}, {}};
+  Samples drawn{samples.input_count, 1, {}, {}};
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t begin = k * samples.count() / count, end = (k + 1) * samples.count() / count;
     const std::size_t chosen = begin + random() % (end - begin);
@@ -287,12 +286,12 @@ SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64
   return drawn;
 }
 
-SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed, unsigned jobs,
+SvrChoice search_hyper_parameters(const Samples& samples, std::uint64_t seed, unsigned jobs,
                                   const FitProgress& progress) {
   SvrChoice choice;
   if (samples.count() < kFewestSamples) return choice;
   const auto contest = [&](std::size_t sample_count) {
-    return Contest(fold_samples(draw_evenly(samples, sample_count, seed), seed), jobs);
+    return Contest(draw_evenly(samples, sample_count, seed), seed, jobs);
   };
 
   Contest coarse = contest(kGridSamples);

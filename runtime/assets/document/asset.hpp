@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,18 +43,16 @@ class MemorySource final : public ByteSource {
   std::string_view bytes_;
 };
 
-// An AssetFiles opens files that belong to an asset.
-class AssetFiles {
- public:
-  virtual ~AssetFiles() = default;
-  // Opens a file by its path relative to the asset. Throws kInput, also for a path that leads out of the
-  // allowed folders.
-  virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
-};
+// Opens a file that belongs to an asset, by its path relative to the asset. Throws kInput, also for a path
+// that leads out of the allowed folders.
+using OpenAssetFile = std::function<std::unique_ptr<ByteSource>(const std::string& path)>;
 
 // An AssetResources opens files that belong to an asset, and provides what its images need.
-class AssetResources : public AssetFiles {
+class AssetResources {
  public:
+  virtual ~AssetResources() = default;
+  // Does what OpenAssetFile describes.
+  virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
   virtual const ImageCodec& codec() const = 0;
   // Returns the image enlarged to a size that is at least its own in both directions. It interpolates
   // bilinearly in linear light. All channels except alpha are in sRGB.

@@ -141,16 +141,17 @@ LegacyMapResult converted_maps(const LegacyMaps& maps) {
   ImagePixels opaque, exponents, f0;
   MapSources sources;
   sources.color_model = sources.data_model = &model;
-  sources.color = maps.diffuse;
+  sources.color = maps.diffuse.get();
   sources.color_factors = maps.factors.diffuse;
   if (maps.diffuse != nullptr && maps.diffuse->has_alpha()) {
-    opaque = with_alpha(maps.diffuse, nullptr, 'l');
+    opaque = with_alpha(maps.diffuse.get(), nullptr, 'l');
     sources.color = &opaque;
   }
   MapConversion& conversion = sources.conversion;
   conversion.source_convention = RoughnessEncoding::kExponent;
   conversion.sources[Parameter::kDiffuse] = color_source(sources.color, maps.factors.diffuse, "diffuse");
-  conversion.sources[Parameter::kSpecular] = color_source(maps.specular, maps.factors.specular, "specular");
+  conversion.sources[Parameter::kSpecular] =
+      color_source(maps.specular.get(), maps.factors.specular, "specular");
   if (maps.exponent != nullptr) exponents = exponents_of(maps);
   conversion.sources[Parameter::kRoughness] =
       value_source(maps.exponent != nullptr ? &exponents : nullptr, 0, maps.factors.exponent, "exponent");

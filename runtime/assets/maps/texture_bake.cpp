@@ -122,10 +122,10 @@ bool is_within_one(const TextureTransform& transform) {
 }
 
 // Returns the size at which no texture loses detail.
-TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
+TextureGrid grid_of(const std::vector<TextureGrid>& textures, const TextureTransform& place) {
   constexpr double kMostTexels = 4096.0;
   double width = 0.0, height = 0.0, most = kMostTexels;
-  for (const PlacedTexture& texture : textures) {
+  for (const TextureGrid& texture : textures) {
     const Matrix steps = steps_between(place, texture.transform);
     const auto own_width = static_cast<double>(texture.width),
                own_height = static_cast<double>(texture.height);
@@ -141,7 +141,7 @@ TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTra
 
 }  // namespace
 
-std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures) {
+std::optional<CommonGrid> common_grid(const std::vector<TextureGrid>& textures) {
   const auto area = [&](std::size_t i) {
     const TextureTransform& transform = textures[i].transform;
     return std::fabs(transform.scale[0] * transform.scale[1]);
@@ -150,7 +150,7 @@ std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, area);
   const auto repeats_in = [&](std::size_t i) {
-    return std::ranges::all_of(textures, [&](const PlacedTexture& other) {
+    return std::ranges::all_of(textures, [&](const TextureGrid& other) {
       return is_whole(steps_between(textures[i].transform, other.transform));
     });
   };
