@@ -102,9 +102,9 @@ class Builder {
   // Deletes the files of a vanished item and returns true. Does nothing if a file changed since the build.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
-    const ItemPaths paths = paths_of(folders_, id);
-    const std::vector<std::pair<fs::path, std::string>> files = {
-        {paths.table, known.table}, {paths.fit, known.fit}, {paths.header, known.header}};
+    const std::vector<std::pair<fs::path, std::string>> files = {{folders_.table(id), known.table},
+                                                                 {folders_.fit(id), known.fit},
+                                                                 {folders_.header(id), known.header}};
     for (const auto& [path, hash] : files)
       if (fs::exists(path) && file_sha256(path) != hash) return false;
     for (const auto& [path, hash] : files) fs::remove(path);
@@ -152,7 +152,7 @@ class Builder {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
     const auto last = last_lock_.items.find(item.id);
     if (swept == nullptr || last == last_lock_.items.end() || last->second.recipe != record->recipe ||
-        file_sha256(paths_of(folders_, item.id).table) != last->second.table)
+        file_sha256(folders_.table(item.id)) != last->second.table)
       return false;
     try {
       renderer_.model(swept->source);
@@ -166,14 +166,14 @@ class Builder {
   }
 
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record, BuiltItem* built) {
-    const ItemPaths paths = paths_of(folders_, item.id);
+    const fs::path table = folders_.table(item.id), fit_path = folders_.fit(item.id);
     if (has_table(item) && !fresh.table) {
       const std::string text = table_text(table_of(item, built));
-      write_file(paths.table, text);
+      write_file(table, text);
       record->table = sha256(text);
     }
     if (fresh.header) return;
-    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table, built);
+    AnyFit fit = fresh.fit ? load_any_fit(fit_path) : fit_of(item, table, built);
     if (!fresh.fit) {
       if (auto* of_width = std::get_if<Fit>(&fit)) {
         const Stopwatch stopwatch;
@@ -181,11 +181,11 @@ class Builder {
         built->lowering_seconds = stopwatch.seconds();
       }
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
-      write_file(paths.fit, text);
+      write_file(fit_path, text);
       record->fit = sha256(text);
     }
     const std::string text = std::visit([](const auto& made) { return emit_header(made); }, fit);
-    write_file(paths.header, text);
+    write_file(folders_.header(item.id), text);
     record->header = sha256(text);
   }
 
@@ -203,7 +203,7 @@ class Builder {
 
   Table table_of(const ManifestItem& item, BuiltItem* built) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
-      const std::string bytes = read_file(paths_of(folders_, inverse->of).fit);
+      const std::string bytes = read_file(folders_.fit(inverse->of));
       return inverse_table(fit_from_json(bytes, inverse->of), bytes);
     }
     const auto& swept = std::get<SweptItem>(item.kind);
@@ -224,7 +224,7 @@ class Builder {
   }
 
   AnyFit fit_of(const ManifestItem& item, const fs::path& table, BuiltItem* built) const {
-    if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
+    if (const auto* finished = std::get_if<AnyFit>(&item.kind)) return *finished;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
     const Stopwatch stopwatch;
@@ -289,14 +289,13 @@ class Builder {
 
   Fit chain_of(const ChainItem& chain, const std::string& id) const {
     std::vector<Fit> steps;
-    for (const std::string& step : chain.steps) steps.push_back(load_fit(paths_of(folders_, step).fit));
+    for (const std::string& step : chain.steps) steps.push_back(load_fit(folders_.fit(step)));
     return composed_fit(steps, id);
   }
 
   void write_converters(const FitFolder& folder) {
     // Warps are made from textures and strokes, so a manifest never lists one.
-    for (const WarpMapFit& fit : folder.warps)
-      write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
+    for (const WarpMapFit& fit : folder.warps) write_changed(folders_.header(fit.id), emit_header(fit));
     for (const EmittedFile& file : emit_shared_files(folder.fits))
       write_changed(folders_.generated / file.name, file.text);
   }
@@ -356,7 +355,7 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
     if (!holds(folders.generated / file.name, file.text))
       reasons.push_back((folders.generated / file.name).string() + ": is out of date with the fits");
   for (const WarpMapFit& fit : folder.warps) {
-    const fs::path header = paths_of(folders, fit.id).header;
+    const fs::path header = folders.header(fit.id);
     if (!holds(header, emit_header(fit)))
       reasons.push_back(fit.id + ": " + header.string() + " is out of date with its fit");
   }

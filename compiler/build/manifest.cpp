@@ -96,13 +96,13 @@ void read_published(const Field& field, std::vector<ManifestItem>* items) {
   fit.remarks = field["remarks"].list(0, read_text);
   fit.remarks.insert(fit.remarks.begin(), "Published in " + fit.method["source"] + ".");
   fit.tool_version = kVersion;
-  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
+  items->push_back({fit.id, AnyFit(fit), field.json().dump(), 0});
 }
 
 void read_workflow_item(const Field& field, std::vector<ManifestItem>* items) {
   WorkflowFit fit{field["id"].text(), read_conversion(field), std::nullopt,
                   field["remarks"].list(0, read_text), kVersion};
-  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
+  items->push_back({fit.id, AnyFit(fit), field.json().dump(), 0});
 }
 
 void read_network_item(const Field& field, std::vector<ManifestItem>* items) {

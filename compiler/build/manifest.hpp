@@ -30,9 +30,6 @@ struct SweptItem {  // a pair of models, built-in or of real renderers
 struct InverseItem {  // the inverse of another item's fit
   std::string of;
 };
-struct FinishedItem {  // a formula from a paper, or a conversion of whole materials
-  AnyFit fit;
-};
 struct ChainItem {  // other items, one after another
   std::vector<std::string> steps;
 };
@@ -52,7 +49,8 @@ struct NetworkItem {
 
 struct ManifestItem {
   std::string id;
-  std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
+  // An AnyFit is finished: a formula from a paper, or a conversion of whole materials.
+  std::variant<SweptItem, InverseItem, AnyFit, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // seed of its fit and of random materials
   // This is true if a difference between the models' light is accepted (table/light.hpp). The list

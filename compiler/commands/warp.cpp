@@ -53,8 +53,8 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
   return strokes;
 }
 
-WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
-  return {value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
+AppearanceDistance distance_of(const WarpCommand& command, AppearanceDistance usual) {
+  return value_named(kAppearanceDistances, command.distance).value_or(usual);
 }
 
 WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
@@ -138,8 +138,8 @@ void warp_textures(const WarpCommand& command) {
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source.frame(), target.frame());
   const Stopwatch stopwatch;
-  const WarpFit fit =
-      fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
+  const WarpFit fit = fit_warp(source.material, target.material, strokes,
+                               distance_of(command, AppearanceDistance::kRelative), command.exact);
   const double seconds = stopwatch.seconds();
   WarpMapFit file = fit_file(command, fit, strokes.size());
   if (source.is_albedo) file.method[kWarpSourceMaps] = kDiffuseAlone;
@@ -212,7 +212,7 @@ void warp_tables(const WarpCommand& command) {
   const AppearanceDistance usual =
       from.is_profiles() ? AppearanceDistance::kPlain : AppearanceDistance::kRelative;
   const AppearanceMatch match = match_appearances(
-      from, to, strokes_of(command, frame_of(source), frame_of(target)), options_of(command, usual));
+      from, to, strokes_of(command, frame_of(source), frame_of(target)), distance_of(command, usual));
   const auto files =
       write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source), to, frame_of(target));
   if (!command.json) return print_words(command.copy, match.diagnostics);

@@ -21,22 +21,26 @@ MaterialCode metallic_code(std::string_view file, const std::string& function, c
   return code_with(code_files({"specular_texels", file}), "kMetallicBlock", function, argument);
 }
 
-MaterialCode formula_code(const Equation2&) {
-  // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions to
-  // the metallic workflow.
-  return code_with(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "",
-                   "4e-6f");
+MaterialCode formula_code(ClosedFormula formula) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions
+      // to the metallic workflow.
+      return code_with(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "",
+                       "4e-6f");
+    case ClosedFormula::kEquation3:
+      return metallic_code("equation_3", "solve_equation_3", "false, ");
+    case ClosedFormula::kEquation3ByAlbedo:
+      return metallic_code("equation_3", "solve_equation_3", "true, ");
+    case ClosedFormula::kKhronos:
+      break;
+  }
+  return metallic_code("khronos", "solve_khronos", "");
 }
 MaterialCode formula_code(const Projection& projection) {
   return metallic_code("projection", "project", literal(projection.prior) + ", ");
 }
-MaterialCode formula_code(const Equation3& equation) {
-  const bool by_albedo = equation.mean == MetallicMean::kAlbedo;
-  return metallic_code("equation_3", "solve_equation_3", by_albedo ? "true, " : "false, ");
-}
-MaterialCode formula_code(const KhronosSolver&) { return metallic_code("khronos", "solve_khronos", ""); }
-MaterialCode formula_code(const LearnedNetwork& learned) {
-  const Network& network = learned.network;
+MaterialCode formula_code(const Network& network) {
   return code_with("\ninline constexpr std::size_t kBlock = " + std::to_string(network_block(network)) +
                        ";\n" + network_helpers(network.activation) +
                        network_function("material_network", network) + code_files({"learned"}),

@@ -42,7 +42,8 @@ class WidthMatch {
       source.weights = setup_.picture_taker.weights(source.picture);
       match = match_by_itself(std::move(source));
     }
-    return {sample.alpha, sample.specular, match.alpha, match.specular, match.picture_error, match.status, 0};
+    const RoleValues& point = match.point();
+    return {sample.alpha, sample.specular, point.alpha, point.specular, match.picture_error, match.status, 0};
   }
 
  private:
@@ -78,9 +79,7 @@ class WidthMatch {
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
           .match({1.0}, &minima_);
     const std::vector<RoleValues> starts = setup_.grid->minima(source.picture, source.weights.squared);
-    const JointMatch match =
-        JointMatcher(*setup_.target.pictures, {std::move(source)}, DiffuseSearch::kNone).match(starts);
-    return {match.point().alpha, match.point().specular, match.error, match.picture_error, match.status};
+    return JointMatcher(*setup_.target.pictures, {std::move(source)}, DiffuseSearch::kNone).match(starts);
   }
 
   const SweepSetup& setup_;
@@ -156,8 +155,8 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
     row->error = matcher.picture_error(pictures);
     return;
   }
-  const JointMatch match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
-                                         matcher.other_guesses());
+  const Match match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
+                                    matcher.other_guesses());
   row->alpha2 = match.point().alpha;
   row->specular2 = match.point().specular;
   row->diffuse2 = match.point().diffuse;
@@ -194,7 +193,7 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
       match_diffuse_separately(setup, &row);
       match_whole(setup, &row);
     }
-    const bool clamped = !setup.source_widths.effective.contains(row.alpha1);
+    const bool clamped = !setup.source_widths.contains(row.alpha1);
     if (clamped && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }
   return rows;

@@ -198,7 +198,7 @@ double JointMatcher::picture_error(std::span<const std::vector<float>> pictures)
   return std::sqrt(loss / power);
 }
 
-JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const {
+Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
   std::vector<double> values;
   ceres::Problem problem;
   for (const Unknown& unknown : unknowns_) {
@@ -227,11 +227,11 @@ JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const
     problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), fixed));
     summary = solve(&problem, tolerance);
   }
-  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost), 0.0,
-          summary.termination_type == ceres::CONVERGENCE, RowStatus::kOk};
+  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost), 0.0, RowStatus::kOk,
+          summary.termination_type == ceres::CONVERGENCE};
 }
 
-bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
+bool JointMatcher::apart(const Match& a, const Match& b) const {
   return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
@@ -240,7 +240,7 @@ bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
   });
 }
 
-bool JointMatcher::at_bound(const JointMatch& match) const {
+bool JointMatcher::at_bound(const Match& match) const {
   return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
     const double value = target_.value(match.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
@@ -250,9 +250,9 @@ bool JointMatcher::at_bound(const JointMatch& match) const {
   });
 }
 
-RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
+RowStatus JointMatcher::judge(const Match& match, const std::vector<Match>& rivals) const {
   if (!match.converged) return RowStatus::kUnstable;
-  for (const JointMatch& rival : rivals) {
+  for (const Match& rival : rivals) {
     const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
     const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
     if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
@@ -260,11 +260,11 @@ RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMa
   return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
-JointMatch JointMatcher::match(const std::vector<RoleValues>& guesses,
-                               const std::vector<RoleValues>& rivals) const {
-  std::vector<JointMatch> found;
+Match JointMatcher::match(const std::vector<RoleValues>& guesses,
+                          const std::vector<RoleValues>& rivals) const {
+  std::vector<Match> found;
   for (const RoleValues& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
-  JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
+  Match best = *std::ranges::min_element(found, {}, &Match::error);
   for (const RoleValues& rival : rivals) found.push_back(search(rival, kRivalTolerance));
   best.status = judge(best, found);
   std::vector<std::vector<float>> pictures;

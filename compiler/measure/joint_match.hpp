@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "measure/match.hpp"
 #include "measure/target_pictures.hpp"
 #include "table/table.hpp"
 
@@ -31,16 +32,6 @@ struct JointChannel {
   bool is_black() const { return remap::is_black(picture); }
 };
 
-struct JointMatch {
-  std::vector<RoleValues> points;  // canonical, one for each channel
-  double error = 0.0;              // as the objective defines it: weighted relative RMS over all channels
-  double picture_error = 0.0;      // like `error`, but only over the pixels, without means
-  bool converged = false;
-  RowStatus status = RowStatus::kOk;
-
-  const RoleValues& point() const { return points.front(); }  // for a grey match
-};
-
 class JointMatcher {
  public:
   // A grey match has one channel. The channels' pictures must be as long as the target's. `target` must
@@ -52,7 +43,7 @@ class JointMatcher {
   // not converge. It is also kUnstable if a search from another guess or from `rivals` ends with an error
   // lower by more than 1 %, or within 1 % but with a parameter that differs by more than 10 %. Otherwise it
   // is kClamped if a parameter is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
-  JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
+  Match match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
 
   // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
   double picture_error(std::span<const std::vector<float>> pictures) const;
@@ -77,10 +68,10 @@ class JointMatcher {
 
   std::vector<Unknown> unknowns() const;
   std::vector<RoleValues> points_of(const double* values, const RoleValues& guess) const;
-  JointMatch search(const RoleValues& guess, double tolerance) const;
-  RowStatus judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const;
-  bool apart(const JointMatch& a, const JointMatch& b) const;
-  bool at_bound(const JointMatch& match) const;
+  Match search(const RoleValues& guess, double tolerance) const;
+  RowStatus judge(const Match& match, const std::vector<Match>& rivals) const;
+  bool apart(const Match& a, const Match& b) const;
+  bool at_bound(const Match& match) const;
 
   const TargetPictures& target_;
   std::vector<JointChannel> channels_;

@@ -193,8 +193,9 @@ Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss
   const PolynomialMinimum& best = minima.front();
   const double of_means = power_of_means + polynomial_value(loss_of_means, best.at);
   const double of_pixels = std::max(0.0, power + best.value - of_means);
-  Match match{std::exp(x), family.specular(best.at), error(best),
-              std::sqrt(of_pixels / (power - power_of_means)), RowStatus::kOk};
+  Match match{{{std::exp(x), family.specular(best.at), 0.0}},
+              error(best),
+              std::sqrt(of_pixels / (power - power_of_means))};
   if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
   for (std::size_t i = 1; i < minima.size(); ++i) {
     const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);
@@ -230,7 +231,8 @@ Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::s
   for (const std::size_t node : *minima) candidates.push_back(refine(node, coefficients));
   Match match = *std::ranges::min_element(candidates, {}, &Match::error);
   for (const Match& rival : candidates) {
-    const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
+    const bool apart =
+        std::fabs(std::log(rival.point().alpha / match.point().alpha)) > 2.0 * bank_.log_step();
     if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;
   }
   return match;

@@ -13,11 +13,13 @@
 namespace remap {
 
 struct Match {
-  double alpha = 0.0;
-  double specular = 0.0;
-  double error = 0.0;          // as the objective defines it: sqrt(loss / weighted source power)
-  double picture_error = 0.0;  // like `error`, but only over the pixels, without means
+  std::vector<RoleValues> points;  // canonical, one for each channel
+  double error = 0.0;              // as the objective defines it: weighted relative RMS over all channels
+  double picture_error = 0.0;      // like `error`, but only over the pixels, without means
   RowStatus status = RowStatus::kOk;
+  bool converged = true;
+
+  const RoleValues& point() const { return points.front(); }  // for a grey match
 };
 
 // A Matcher matches source materials whose pictures share weights and are combinations of the same few

@@ -168,7 +168,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   guesses.front().alpha = source_alpha(matching, material);
   const std::vector<RoleValues> others = matcher.other_guesses();
   guesses.insert(guesses.end(), others.begin(), others.end());
-  const JointMatch match = matcher.match(guesses);
+  const Match match = matcher.match(guesses);
   return {sample, target_values(matching, match.points), rounded(match.picture_error, kMatchErrorDigits),
           match.status, 0};
 }

@@ -130,11 +130,11 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   table.has_diffuse = has_diffuse(options);
   table.comments = {{"tool", std::string("remapc ") + kVersion}};
   add_side("source", setup.source, &table.comments);
-  add_widths("source", setup.source_widths, &table.comments);
+  add_widths("source", sampled_alphas(options.samples), setup.source_widths, &table.comments);
   add_noise("source", renderer, options.source, &table.comments);
   add_side("target", setup.target, &table.comments);
   add_limits(setup.limits(), &table.comments);
-  add_widths("target", setup.target_widths, &table.comments);
+  add_widths("target", setup.wanted_widths, setup.target_widths, &table.comments);
   add_noise("target", renderer, options.target, &table.comments);
   add_comparison(renderer, options, &table.comments);
   add_stages(setup, &table);
@@ -146,11 +146,9 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
 // Probes both models, matches their light, and prepares the data that the blocks share.
 SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_taker,
                       const ModelDescription& source, const ModelDescription& target) {
-  const EffectiveWidths source_widths = probe_widths(picture_taker, source, sampled_alphas(options.samples));
-  const Range alphas = source_widths.effective;
+  const Range alphas = probe_widths(picture_taker, source, sampled_alphas(options.samples));
   const Range wanted = searched_widths(target, alphas.min);
-  const EffectiveWidths target_widths = probe_widths(picture_taker, target, wanted);
-  const Range searched = target_widths.effective;
+  const Range searched = probe_widths(picture_taker, target, wanted);
   ModelDescription responsive = target;  // restricted to the widths that change its pictures
   if (searched.min > wanted.min) responsive.alpha.min = searched.min;
   if (searched.max < wanted.max) responsive.alpha.max = searched.max;
@@ -160,8 +158,8 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =
       light_matched(source, target) ? match_diffuse(picture_taker, source, target) : DiffuseMatch{};
-  SweepSetup setup{options, picture_taker, {source, source_law}, {},           1.0,
-                   diffuse, nullptr,       source_widths,        target_widths};
+  SweepSetup setup{options,  picture_taker, {source, source_law}, {}, 1.0, diffuse, nullptr, alphas,
+                   searched, wanted};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;

@@ -24,38 +24,50 @@ namespace {
 
 namespace code = workflow_code;
 
-std::string_view name_of(const Equation2&) { return "equation-2"; }
+std::string_view name_of(ClosedFormula formula) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return "equation-2";
+    case ClosedFormula::kKhronos:
+      return "khronos";
+    default:
+      return "equation-3";
+  }
+}
 std::string_view name_of(const Projection&) { return "projection"; }
-std::string_view name_of(const Equation3&) { return "equation-3"; }
-std::string_view name_of(const KhronosSolver&) { return "khronos"; }
-std::string_view name_of(const LearnedNetwork&) { return "network"; }
+std::string_view name_of(const Network&) { return "network"; }
 
-std::string text_of(const Equation2&) {
-  return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+std::string text_of(ClosedFormula formula) {
+  constexpr const char* kEquation3 =
+      "equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels";
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+    case ClosedFormula::kEquation3:
+      return kEquation3;
+    case ClosedFormula::kEquation3ByAlbedo:
+      return std::string(kEquation3) + ", weighted by albedo";
+    case ClosedFormula::kKhronos:
+      break;
+  }
+  return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
 }
 std::string text_of(const Projection& projection) {
   return "least difference of the pictures over base color and metallic, prior " +
          number_text(projection.prior);
 }
-std::string text_of(const Equation3& equation) {
-  return std::string("equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels") +
-         (equation.mean == MetallicMean::kAlbedo ? ", weighted by albedo" : "");
-}
-std::string text_of(const KhronosSolver&) {
-  return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
-}
-std::string text_of(const LearnedNetwork& learned) {
-  std::string sizes = std::to_string(learned.network.inputs.size());
-  for (const Layer& layer : learned.network.layers) sizes += " x " + std::to_string(layer.output_count());
-  return "a network of " + sizes + " (" + std::string(activation_name(learned.network.activation)) +
+std::string text_of(const Network& network) {
+  std::string sizes = std::to_string(network.inputs.size());
+  for (const Layer& layer : network.layers) sizes += " x " + std::to_string(layer.output_count());
+  return "a network of " + sizes + " (" + std::string(activation_name(network.activation)) +
          "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
 }
 
 constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
 
-void require_network(const LearnedNetwork& learned, const std::string& context) {
-  const std::size_t inputs = learned.network.inputs.size(), outputs = learned.network.outputs.size();
-  if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
+void require_network(const Network& network, const std::string& context) {
+  const std::size_t inputs = network.inputs.size(), outputs = network.outputs.size();
+  if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !network.layers.empty()) return;
   throw Error(ErrorKind::kInput,
               context + ": a network of " + std::to_string(inputs) + " inputs and " +
                   std::to_string(outputs) +
@@ -102,9 +114,16 @@ std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what
 using SpecularBlock = std::array<const float*, 7>;
 using MetallicBlock = std::array<float*, 5>;
 
-// Equation (2) leads to the specular workflow only.
-std::size_t block_by(const Equation2&, const code::Conventions&, const SpecularBlock&, const MetallicBlock&) {
-  return 0;
+std::size_t block_by(ClosedFormula formula, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return 0;  // it leads to the specular workflow only
+    case ClosedFormula::kKhronos:
+      return code::solve_khronos(use, in, out);
+    default:
+      return code::solve_equation_3(use, formula == ClosedFormula::kEquation3ByAlbedo, in, out);
+  }
 }
 
 std::size_t block_by(const Projection& projection, const code::Conventions& use, const SpecularBlock& in,
@@ -112,18 +131,8 @@ std::size_t block_by(const Projection& projection, const code::Conventions& use,
   return code::project(use, static_cast<float>(projection.prior), in, out);
 }
 
-std::size_t block_by(const Equation3& equation, const code::Conventions& use, const SpecularBlock& in,
-                     const MetallicBlock& out) {
-  return code::solve_equation_3(use, equation.mean == MetallicMean::kAlbedo, in, out);
-}
-
-std::size_t block_by(const KhronosSolver&, const code::Conventions& use, const SpecularBlock& in,
-                     const MetallicBlock& out) {
-  return code::solve_khronos(use, in, out);
-}
-
 // Interprets the network in double precision, texel by texel.
-std::size_t block_by(const LearnedNetwork& learned, const code::Conventions& use, const SpecularBlock& in,
+std::size_t block_by(const Network& network, const code::Conventions& use, const SpecularBlock& in,
                      const MetallicBlock& out) {
   code::ClampedBlock<7, code::kMetallicBlock> block;
   const std::size_t outside = code::hold(in, block, std::make_index_sequence<7>());
@@ -134,7 +143,7 @@ std::size_t block_by(const LearnedNetwork& learned, const code::Conventions& use
       values.push_back(static_cast<double>(block.row[r][i]));
       is_nan = is_nan || std::isnan(block.row[r][i]);
     }
-    const std::vector<double> outputs = network_outputs(learned.network, std::move(values));
+    const std::vector<double> outputs = network_outputs(network, std::move(values));
     for (std::size_t r = 0; r < outputs.size(); ++r)
       out[r][i] = is_nan ? std::numeric_limits<float>::quiet_NaN()
                          : static_cast<float>(std::clamp(outputs[r], 0.0, 1.0));
@@ -178,9 +187,8 @@ void require_valid(const WorkflowConversion& conversion, const std::string& cont
   require_valid(conversion.specular, conversion.metallic, context);
   if (const auto* projection = std::get_if<Projection>(&conversion.formula))
     require_prior(projection->prior, context);
-  if (const auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
-    require_network(*learned, context);
-  if (!std::holds_alternative<KhronosSolver>(conversion.formula)) return;
+  if (const auto* network = std::get_if<Network>(&conversion.formula)) require_network(*network, context);
+  if (!is_formula(conversion.formula, ClosedFormula::kKhronos)) return;
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)

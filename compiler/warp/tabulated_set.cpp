@@ -40,33 +40,28 @@ std::optional<double> profile_radius(std::string_view name) {
   return radius && *radius > 0.0 ? radius : std::nullopt;
 }
 
-// A ProfileLayout holds the radii of a table, and the column of each sample of red, green and blue.
-struct ProfileLayout {
-  std::vector<double> radii;
-  std::vector<std::size_t> columns;  // 3 x radii
-};
-
-ProfileLayout profile_layout(const std::vector<std::string>& names, const std::string& context) {
+// Sets the radii of a table. Returns the column of each sample of red, green and blue.
+std::vector<std::size_t> profile_columns(const std::vector<std::string>& names, TabulatedMaterial& material) {
   std::map<char, std::map<double, std::size_t>> found;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (const auto radius = profile_radius(names[i])) found[names[i].front()][*radius] = i;
   const bool is_grey = found.contains('Y');
-  ProfileLayout layout;
-  for (const auto& [radius, column] : found[is_grey ? 'Y' : 'R']) layout.radii.push_back(radius);
+  std::vector<std::size_t> columns;
+  for (const auto& [radius, column] : found[is_grey ? 'Y' : 'R']) material.radii.push_back(radius);
   for (const char channel : {'R', 'G', 'B'}) {
     const auto& own = found[is_grey ? 'Y' : channel];
     std::vector<double> radii;
     for (const auto& [radius, column] : own) {
       radii.push_back(radius);
-      layout.columns.push_back(column);
+      columns.push_back(column);
     }
-    if (radii.size() < 2 || radii != layout.radii)
-      throw input_error(context +
+    if (radii.size() < 2 || radii != material.radii)
+      throw input_error(material.table.string() +
                         ": requires columns named R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, with the "
                         "same two or more radii for each; the first column is " +
                         (names.empty() ? "missing" : "'" + names.front() + "'"));
   }
-  return layout;
+  return columns;
 }
 
 void set_size(TabulatedMaterial& material, const ImageLayout& layout) {
@@ -79,13 +74,12 @@ void read_profile_map(TabulatedMaterial& material) {
   set_size(material, image.layout());
   std::vector<std::string> names;
   for (const Channel& channel : image.layout().channels) names.push_back(channel.name);
-  const ProfileLayout layout = profile_layout(names, material.table.string());
+  const std::vector<std::size_t> columns = profile_columns(names, material);
   const std::vector<std::byte> texels = texels_of(image);
-  material.radii = layout.radii;
-  material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
+  material.samples.resize(static_cast<Eigen::Index>(columns.size()),
                           static_cast<Eigen::Index>(material.width * material.height));
-  for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-    const std::vector<float> values = channel_values(image.layout(), layout.columns[row], texels);
+  for (std::size_t row = 0; row < columns.size(); ++row) {
+    const std::vector<float> values = channel_values(image.layout(), columns[row], texels);
     material.samples.row(static_cast<Eigen::Index>(row)) =
         Eigen::Map<const Eigen::RowVectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
@@ -102,14 +96,13 @@ void read_profile_table(TabulatedMaterial& material) {
   const Csv csv = parse_csv(text, material.table.string());
   std::vector<std::string> names;
   for (const CsvCell& cell : csv.header.cells) names.emplace_back(cell.text);
-  const ProfileLayout layout = profile_layout(names, material.table.string());
-  material.radii = layout.radii;
-  material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
+  const std::vector<std::size_t> columns = profile_columns(names, material);
+  material.samples.resize(static_cast<Eigen::Index>(columns.size()),
                           static_cast<Eigen::Index>(csv.lines.size()));
   for (std::size_t entry = 0; entry < csv.lines.size(); ++entry)
-    for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-      const CsvCell& cell = csv.lines[entry].cells[layout.columns[row]];
-      const double value = csv.number(csv.lines[entry], cell, names[layout.columns[row]]);
+    for (std::size_t row = 0; row < columns.size(); ++row) {
+      const CsvCell& cell = csv.lines[entry].cells[columns[row]];
+      const double value = csv.number(csv.lines[entry], cell, names[columns[row]]);
       if (!(value >= 0.0 && std::isfinite(value)))
         csv.fail(csv.lines[entry].number, cell.column,
                  "'" + std::string(cell.text) + "' is not a finite number of at least 0");

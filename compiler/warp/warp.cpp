@@ -116,9 +116,9 @@ void diagnose(const PointSets& sets, AppearanceMatch& match) {
 }
 
 Matched matched(const MaterialRef& source, const MaterialRef& target, const std::vector<StrokePair>& strokes,
-                const WarpOptions& options) {
+                AppearanceDistance distance) {
   require_valid(source, target, strokes);
-  const FeaturePair features = appearance_features(source, target, options.distance);
+  const FeaturePair features = appearance_features(source, target, distance);
   const AppearanceSpace from_space = appearance_space(source, features.source);
   const AppearanceSpace to_space = appearance_space(target, features.target);
 
@@ -165,18 +165,18 @@ WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32
 }  // namespace
 
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
-                                  const std::vector<StrokePair>& strokes, const WarpOptions& options) {
-  return matched(source, target, strokes, options).match;
+                                  const std::vector<StrokePair>& strokes, AppearanceDistance distance) {
+  return matched(source, target, strokes, distance).match;
 }
 
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
-                 const std::vector<StrokePair>& strokes, const WarpOptions& options) {
-  Matched matched_texels = matched(source, target, strokes, options);
+                 const std::vector<StrokePair>& strokes, AppearanceDistance distance, bool exact) {
+  Matched matched_texels = matched(source, target, strokes, distance);
   WarpFit fit{std::move(matched_texels.match), {}};
   fit.compiled.coordinates = std::get<AppearanceCoordinates>(fit.source.coordinates);
   fit.compiled.table =
       compile_table(fit.warp, matched_texels.source_positions, nearest_texel(matched_texels.target_positions),
-                    reduced(target, matched_texels.target.texels), options.exact);
+                    reduced(target, matched_texels.target.texels), exact);
   return fit;
 }
 

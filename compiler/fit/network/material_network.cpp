@@ -163,7 +163,7 @@ WorkflowFit fit_material_network(const MaterialTable& table, std::string_view by
   const auto held_out = std::span(drawn).first(static_cast<std::size_t>(split.held_out_rows));
   const auto training = std::span(drawn).subspan(held_out.size());
   const TrainedNetwork trained = train_network(samples_of(training), options, progress);
-  fit.conversion.formula = LearnedNetwork{trained.network};
+  fit.conversion.formula = trained.network;
   fit.training.emplace();
   fit.training->method["network"] = trained.method;
   fit.training->method["table_against_equation_2"] =

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "assets/document/asset_uri.hpp"
@@ -33,14 +34,14 @@ class ByteSource {
 // Reads from `bytes`, which must outlive this object.
 class MemorySource final : public ByteSource {
  public:
-  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
+  explicit MemorySource(std::string bytes) : bytes_(std::move(bytes)) {}
   std::uint64_t size() const override { return bytes_.size(); }
   std::string read(std::uint64_t begin, std::size_t count) const override {
-    return std::string(bytes_.substr(begin, count));
+    return bytes_.substr(begin, count);
   }
 
  private:
-  std::string_view bytes_;
+  std::string bytes_;
 };
 
 // Opens a file that belongs to an asset, by its path relative to the asset. Throws kInput, also for a path

@@ -211,7 +211,7 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
     auto source = picture_taker.take(renderer.model("mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
     auto weights = picture_taker.weights(source);
     const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, DiffuseSearch::kNone);
-    const JointMatch match = matcher.match({{row.alpha1, 0.5, 0.0}});
+    const Match match = matcher.match({{row.alpha1, 0.5, 0.0}});
     // The margin allows for central differences of float pictures and for the tolerances of Ceres.
     CHECK(row.alpha2 == Approx(match.point().alpha).epsilon(1e-4));
     CHECK(row.specular2 == Approx(match.point().specular).epsilon(2e-4));

@@ -208,9 +208,7 @@ TEST_CASE("warp: an exact table gives only texels of the template, about as near
           "[warp][slow]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
-  WarpOptions options;
-  options.exact = true;
-  const WarpFit exact = fit_warp(set.source, set.target, strokes, options),
+  const WarpFit exact = fit_warp(set.source, set.target, strokes, AppearanceDistance::kRelative, true),
                 blended = fit_warp(set.source, set.target, strokes);
   const auto& entries = std::get<CopiedNodes>(exact.compiled.table.entries);
   CHECK(exact.compiled.table.nodes == 256);
