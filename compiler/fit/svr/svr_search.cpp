@@ -36,12 +36,9 @@ constexpr std::size_t kTubeSamples = 600;
 enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
 using Point = std::array<int, kAxes>;
 
-struct Interval {
-  int low, high;
-};
 // C is at most 100, because libsvm needs minutes for a larger C and a wide kernel. Gamma is 0.1 to 3200, the
 // span at least 0.01, the pole at least 0.01.
-constexpr std::array<Interval, kAxes> kBounds = {{{0, 8}, {-4, 14}, {-8, 0}, {0, 5}, {-16, -4}}};
+constexpr Point kLowest = {0, -4, -8, 0, -16}, kHighest = {8, 14, 0, 5, -4};
 constexpr int kStartCost = 4;
 constexpr int kFirstStep = 2, kLargestRounds = 8;
 // The training time is inversely proportional to the width of the tube, so only small problems use narrow
@@ -244,17 +241,18 @@ std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_c
   for (const Point& move : moves) {
     Point point = centre;
     for (std::size_t axis = 0; axis < kAxes; ++axis)
-      point[axis] = std::clamp(point[axis] + step * move[axis], kBounds[axis].low, kBounds[axis].high);
+      point[axis] = std::clamp(point[axis] + step * move[axis], kLowest[axis], kHighest[axis]);
     if (point != centre) points.push_back(point);
   }
   return points;
 }
 
-// Moves from `point` along `axis` while each step reduces the error to less than `needed` times its value.
-Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds, double needed) {
+// Moves from `point` along `axis`, at most to `limit`, while each step reduces the error to less than
+// `needed` times its value.
+Point follow(Contest& contest, Point point, Axis axis, int step, int limit, double needed) {
   for (Point next = point;; point = next) {
     next[axis] += step;
-    if (next[axis] < bounds.low || next[axis] > bounds.high) return point;
+    if (step < 0 ? next[axis] < limit : next[axis] > limit) return point;
     contest.enter({next});
     const Trial& candidate = contest.at(next);
     if (!candidate.is_finished() || !(candidate.rms() < needed * contest.at(point).rms())) return point;
@@ -265,9 +263,9 @@ Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds
 // tube shows differences between kernels that a wide tube hides, so gamma is increased again if this helps.
 Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   contest.enter({start});
-  Point point = follow(contest, start, kEpsilon, -2, {narrowest, kBounds[kEpsilon].high}, kWorthTime);
-  if (point == start) return follow(contest, start, kEpsilon, 2, kBounds[kEpsilon], 1.0);
-  return follow(contest, point, kGamma, 1, kBounds[kGamma], kWorthTime);
+  Point point = follow(contest, start, kEpsilon, -2, narrowest, kWorthTime);
+  if (point == start) return follow(contest, start, kEpsilon, 2, kHighest[kEpsilon], 1.0);
+  return follow(contest, point, kGamma, 1, kHighest[kGamma], kWorthTime);
 }
 
 }  // namespace
