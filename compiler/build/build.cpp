@@ -53,7 +53,7 @@ class Builder {
   BuildResult run() {
     forget_vanished();
     std::vector<const ManifestItem*> waiting;
-    for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
+    for (const ManifestItem& item : manifest_) waiting.push_back(&item);
     while (!waiting.empty()) {
       // Start with the items whose inputs are built. The order of a manifest guarantees that there are some.
       std::vector<const ManifestItem*> ready, later;
@@ -89,7 +89,7 @@ class Builder {
   // delete the fit.
   void forget_vanished() {
     std::set<std::string> kept;
-    for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
+    for (const ManifestItem& item : manifest_) kept.insert(item.id);
     for (const std::string& id : vanished_items(manifest_, folders_, last_lock_)) {
       if (execution_.prune && prune(id))
         pruned_.push_back(id);
@@ -102,9 +102,9 @@ class Builder {
   // Deletes the files of a vanished item and returns true. Does nothing if a file changed since the build.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
-    const ItemPaths paths = paths_of(folders_, id);
-    const std::vector<std::pair<fs::path, std::string>> files = {
-        {paths.table, known.table}, {paths.fit, known.fit}, {paths.header, known.header}};
+    const std::vector<std::pair<fs::path, std::string>> files = {{folders_.table(id), known.table},
+                                                                 {folders_.fit(id), known.fit},
+                                                                 {folders_.header(id), known.header}};
     for (const auto& [path, hash] : files)
       if (fs::exists(path) && file_sha256(path) != hash) return false;
     for (const auto& [path, hash] : files) fs::remove(path);
@@ -126,7 +126,7 @@ class Builder {
       const Stopwatch stopwatch;
       if (!fresh.table && keeps_table(item, &record, &built.kept_table)) fresh.table = true;
       make(item, fresh, &record, &built);
-      built.seconds.all = stopwatch.seconds();
+      built.seconds = stopwatch.seconds();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
@@ -144,7 +144,7 @@ class Builder {
       built_.push_back(std::move(built));
     }
     ++done_;
-    if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+    if (execution_.progress) execution_.progress(done_, manifest_.size());
   }
 
   // Returns true if the table of the last build can be reused because its renderer is not installed.
@@ -152,7 +152,7 @@ class Builder {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
     const auto last = last_lock_.items.find(item.id);
     if (swept == nullptr || last == last_lock_.items.end() || last->second.recipe != record->recipe ||
-        file_sha256(paths_of(folders_, item.id).table) != last->second.table)
+        file_sha256(folders_.table(item.id)) != last->second.table)
       return false;
     try {
       renderer_.model(swept->source);
@@ -166,26 +166,26 @@ class Builder {
   }
 
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record, BuiltItem* built) {
-    const ItemPaths paths = paths_of(folders_, item.id);
+    const fs::path table = folders_.table(item.id), fit_path = folders_.fit(item.id);
     if (has_table(item) && !fresh.table) {
       const std::string text = table_text(table_of(item, built));
-      write_file(paths.table, text);
+      write_file(table, text);
       record->table = sha256(text);
     }
     if (fresh.header) return;
-    AnyFit fit = fresh.fit ? load_any_fit(paths.fit) : fit_of(item, paths.table, built);
+    AnyFit fit = fresh.fit ? load_any_fit(fit_path) : fit_of(item, table, built);
     if (!fresh.fit) {
       if (auto* of_width = std::get_if<Fit>(&fit)) {
         const Stopwatch stopwatch;
         add_converter(of_width);
-        built->seconds.lowering = stopwatch.seconds();
+        built->lowering_seconds = stopwatch.seconds();
       }
       const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
-      write_file(paths.fit, text);
+      write_file(fit_path, text);
       record->fit = sha256(text);
     }
     const std::string text = std::visit([](const auto& made) { return emit_header(made); }, fit);
-    write_file(paths.header, text);
+    write_file(folders_.header(item.id), text);
     record->header = sha256(text);
   }
 
@@ -195,49 +195,48 @@ class Builder {
     const TimedRenderer renderer(renderer_);
     const Stopwatch stopwatch;
     auto result = made(renderer);
-    built->seconds.sweep = stopwatch.seconds();
+    built->sweep_seconds = stopwatch.seconds();
     built->pictures = renderer.picture_count();
-    built->seconds.pictures = renderer.seconds();
+    built->picture_seconds = renderer.seconds();
     return result;
   }
 
   Table table_of(const ManifestItem& item, BuiltItem* built) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
-      const std::string bytes = read_file(paths_of(folders_, inverse->of).fit);
+      const std::string bytes = read_file(folders_.fit(inverse->of));
       return inverse_table(fit_from_json(bytes, inverse->of), bytes);
     }
-    const auto& [source, target, recipe] = std::get<SweptItem>(item.kind);
+    const auto& swept = std::get<SweptItem>(item.kind);
     SweepOptions options;
-    options.source = source;
-    options.target = target;
-    options.objective = recipe.objective;
+    options.source = swept.source;
+    options.target = swept.target;
+    options.objective = swept.objective;
     options.accept_light = item.accept_light;
-    options.resolution = recipe.resolution;
-    Range speculars = canonical_speculars(renderer_, renderer_.model(source));
-    if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
+    options.resolution = swept.resolution;
+    Range speculars = canonical_speculars(renderer_, renderer_.model(swept.source));
+    if (const auto part = swept.speculars.find(swept.source); part != swept.speculars.end())
       speculars = {std::max(speculars.min, part->second.min), std::min(speculars.max, part->second.max)};
-    options.samples =
-        grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
-    options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    options.samples = grid_samples(swept.alphas, swept.roughness_samples, speculars, swept.specular_samples);
+    options.sampling = grid_text(swept.alphas, swept.roughness_samples, speculars, swept.specular_samples);
     return with_pictures(built, [&](const Renderer& renderer) {
       return run_sweep(renderer, options, {1, {}, execution_.cancelled});
     });
   }
 
   AnyFit fit_of(const ManifestItem& item, const fs::path& table, BuiltItem* built) const {
-    if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
+    if (const auto* finished = std::get_if<AnyFit>(&item.kind)) return *finished;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
     const Stopwatch stopwatch;
     const std::string bytes = read_file(table);
     FitOptions options;
     options.id = item.id;
-    options.regression.seed = item.seed;
-    options.regression.jobs = 1;
+    options.seed = item.seed;
+    options.jobs = 1;
     options.accept_light = item.accept_light;
     Fit fit =
         fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
-    built->seconds.fit = stopwatch.seconds();
+    built->fit_seconds = stopwatch.seconds();
     return fit;
   }
 
@@ -270,7 +269,7 @@ class Builder {
     options.jobs = 1;
     WorkflowFit fit = fit_material_network(parse_material_table(bytes, item.id + ".csv"), bytes, options,
                                            [&](double) { require_time(); });
-    built->seconds.fit = stopwatch.seconds();
+    built->fit_seconds = stopwatch.seconds();
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)
@@ -290,14 +289,13 @@ class Builder {
 
   Fit chain_of(const ChainItem& chain, const std::string& id) const {
     std::vector<Fit> steps;
-    for (const std::string& step : chain.steps) steps.push_back(load_fit(paths_of(folders_, step).fit));
+    for (const std::string& step : chain.steps) steps.push_back(load_fit(folders_.fit(step)));
     return composed_fit(steps, id);
   }
 
   void write_converters(const FitFolder& folder) {
     // Warps are made from textures and strokes, so a manifest never lists one.
-    for (const WarpMapFit& fit : folder.warps)
-      write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
+    for (const WarpMapFit& fit : folder.warps) write_changed(folders_.header(fit.id), emit_header(fit));
     for (const EmittedFile& file : emit_shared_files(folder.fits))
       write_changed(folders_.generated / file.name, file.text);
   }
@@ -305,7 +303,7 @@ class Builder {
   // The report takes a second to compute, so it is written only if it changed.
   void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
-    for (const ReportFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
+    for (const EmittedFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
     lock_.report = report_hash(folders_);
   }
 
@@ -344,7 +342,7 @@ std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFol
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders) {
   const Lock lock = load_lock(folders.fits);
   std::vector<std::string> reasons;
-  for (const ManifestItem& item : manifest.items) {
+  for (const ManifestItem& item : manifest) {
     const Freshness fresh = freshness(item, folders, lock);
     if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
   }
@@ -357,7 +355,7 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
     if (!holds(folders.generated / file.name, file.text))
       reasons.push_back((folders.generated / file.name).string() + ": is out of date with the fits");
   for (const WarpMapFit& fit : folder.warps) {
-    const fs::path header = paths_of(folders, fit.id).header;
+    const fs::path header = folders.header(fit.id);
     if (!holds(header, emit_header(fit)))
       reasons.push_back(fit.id + ": " + header.string() + " is out of date with its fit");
   }

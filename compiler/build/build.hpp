@@ -24,22 +24,17 @@ struct BuildExecution {
   const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
-// A BuildSeconds says how long the thread of an item worked, in seconds. All numbers are 0 if the item was up
-// to date.
-struct BuildSeconds {
-  double sweep = 0.0;     // for the table, or the samples of a network; includes waiting for pictures
-  double pictures = 0.0;  // the part of `sweep` spent waiting for the renderer
-  double fit = 0.0;
-  double lowering = 0.0;  // including its proofs
-  double all = 0.0;
-};
-
-// A BuiltItem holds the files and times of one item.
+// A BuiltItem holds the files and times of one item. Its seconds say how long the thread of the item worked.
+// They are 0 if the item was up to date.
 struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;
-  BuildSeconds seconds;
-  std::size_t pictures = 0;  // rendered or read from the cache
+  double seconds = 0.0;
+  double sweep_seconds = 0.0;    // for the table, or the samples of a network; includes waiting for pictures
+  double picture_seconds = 0.0;  // the part of `sweep_seconds` spent waiting for the renderer
+  double fit_seconds = 0.0;
+  double lowering_seconds = 0.0;  // including its proofs
+  std::size_t pictures = 0;       // rendered or read from the cache
   std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
 };
 

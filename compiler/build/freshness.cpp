@@ -13,11 +13,6 @@ namespace remap {
 
 namespace fs = std::filesystem;
 
-ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
-  return {folders.fits / "tables" / (id + ".csv"), folders.fits / (id + ".json"),
-          folders.generated / (id + ".hpp")};
-}
-
 bool has_table(const ManifestItem& item) {
   return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind);
 }
@@ -48,7 +43,7 @@ Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const
   const auto found = lock.items.find(item.id);
   if (found == lock.items.end()) return {false, false, false, "not built yet"};
   const LockedItem& known = found->second;
-  const ItemPaths paths = paths_of(folders, item.id);
+  const fs::path table = folders.table(item.id), fit = folders.fit(item.id), header = folders.header(item.id);
   if (known.recipe != recipe_hash(item, lock))
     return {false, false, false, "its recipe or its inputs have changed"};
   const auto same = [](const fs::path& path, const std::string& hash) {
@@ -57,11 +52,10 @@ Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const
   const auto reason = [](const fs::path& path) {
     return path.string() + (fs::exists(path) ? " was changed after the last build" : " does not exist");
   };
-  if (has_table(item) && !same(paths.table, known.table)) return {false, false, false, reason(paths.table)};
-  if (!same(paths.fit, known.fit)) return {true, false, false, reason(paths.fit)};
-  if (!has_current_format(paths.fit))
-    return {true, false, false, paths.fit.string() + " has an older format"};
-  if (!same(paths.header, known.header)) return {true, true, false, reason(paths.header)};
+  if (has_table(item) && !same(table, known.table)) return {false, false, false, reason(table)};
+  if (!same(fit, known.fit)) return {true, false, false, reason(fit)};
+  if (!has_current_format(fit)) return {true, false, false, fit.string() + " has an older format"};
+  if (!same(header, known.header)) return {true, true, false, reason(header)};
   return {true, true, true, ""};
 }
 
@@ -83,10 +77,10 @@ bool has_report(const BuildFolders& folders, const Lock& lock) {
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
                                         const Lock& lock) {
   std::set<std::string> ids;
-  for (const ManifestItem& item : manifest.items) ids.insert(item.id);
+  for (const ManifestItem& item : manifest) ids.insert(item.id);
   std::vector<std::string> vanished;
   for (const auto& [id, item] : lock.items)
-    if (!ids.contains(id) && fs::exists(paths_of(folders, id).fit)) vanished.push_back(id);
+    if (!ids.contains(id) && fs::exists(folders.fit(id))) vanished.push_back(id);
   return vanished;
 }
 

@@ -13,12 +13,12 @@ namespace remap {
 struct BuildFolders {
   std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
   std::filesystem::path generated = "generated";
-};
 
-struct ItemPaths {
-  std::filesystem::path table, fit, header;
+  // Return the files of an item.
+  std::filesystem::path table(const std::string& id) const { return fits / "tables" / (id + ".csv"); }
+  std::filesystem::path fit(const std::string& id) const { return fits / (id + ".json"); }
+  std::filesystem::path header(const std::string& id) const { return generated / (id + ".hpp"); }
 };
-ItemPaths paths_of(const BuildFolders& folders, const std::string& id);
 
 // Returns true if items of this kind keep a table. A network keeps only its fit.
 bool has_table(const ManifestItem& item);

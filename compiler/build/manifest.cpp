@@ -54,13 +54,13 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) 
 }
 
 void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
-  SweepRecipe recipe;
-  recipe.objective = recorded_objective(group["objective"].text());
-  recipe.resolution = read_resolution(group["resolution"]);
-  recipe.alphas = read_range(group["alpha"]);
-  recipe.roughness_samples = read_count(group["roughness_samples"]);
-  recipe.specular_samples = read_count(group["specular_samples"]);
-  if (group.contains("speculars")) recipe.speculars = group["speculars"].dictionary<Range>(read_range);
+  SweptItem item;
+  item.objective = recorded_objective(group["objective"].text());
+  item.resolution = read_resolution(group["resolution"]);
+  item.alphas = read_range(group["alpha"]);
+  item.roughness_samples = read_count(group["roughness_samples"]);
+  item.specular_samples = read_count(group["specular_samples"]);
+  if (group.contains("speculars")) item.speculars = group["speculars"].dictionary<Range>(read_range);
   const auto seed = static_cast<std::uint64_t>(group["seed"].count());
   for (const auto& [source, target] : read_pairs(group)) {
     Json text = group.json();
@@ -69,7 +69,9 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
     text["models"] = {source, target};
     if (text.contains("speculars"))  // only the range of this source matters
       text["speculars"] = group["speculars"].contains(source) ? group["speculars"][source].json() : Json();
-    items->push_back({converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
+    item.source = source;
+    item.target = target;
+    items->push_back({converter_id(source, target), item, text.dump(), seed});
   }
 }
 
@@ -94,13 +96,13 @@ void read_published(const Field& field, std::vector<ManifestItem>* items) {
   fit.remarks = field["remarks"].list(0, read_text);
   fit.remarks.insert(fit.remarks.begin(), "Published in " + fit.method["source"] + ".");
   fit.tool_version = kVersion;
-  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
+  items->push_back({fit.id, AnyFit(fit), field.json().dump(), 0});
 }
 
 void read_workflow_item(const Field& field, std::vector<ManifestItem>* items) {
   WorkflowFit fit{field["id"].text(), read_conversion(field), std::nullopt,
                   field["remarks"].list(0, read_text), kVersion};
-  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
+  items->push_back({fit.id, AnyFit(fit), field.json().dump(), 0});
 }
 
 void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
@@ -165,8 +167,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& context) {
   root["format"].require(root["format"].text() == "remap-manifest", "\"remap-manifest\"");
   root["version"].require(root["version"].count() == kManifestVersion,
                           "version " + std::to_string(kManifestVersion));
-  Manifest manifest;
-  std::vector<ManifestItem>& items = manifest.items;
+  Manifest items;
   const auto each = [&](const std::string& key, const auto& read) {
     root[key].list(0, [&](const Field& entry) {
       read(entry);
@@ -193,7 +194,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& context) {
     each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
   if (json.contains("accepted_light")) read_accepted(root["accepted_light"], &items);
   require_unique(items, context);
-  return manifest;
+  return items;
 }
 
 Manifest load_manifest(const std::filesystem::path& fit_folder) {

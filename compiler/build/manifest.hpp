@@ -17,8 +17,9 @@ namespace remap {
 inline constexpr const char* kManifestName = "manifest.json";
 inline constexpr int kManifestVersion = 1;
 
-// A SweepRecipe decides how a group of pairs is swept and fitted.
-struct SweepRecipe {
+// A ManifestItem is one converter. SweptItem and NetworkItem need a renderer.
+struct SweptItem {  // a pair of models, built-in or of real renderers
+  std::string source, target;
   Objective objective;
   int resolution = 512;
   Range alphas{0.01, 1.0};
@@ -26,17 +27,8 @@ struct SweepRecipe {
   std::size_t specular_samples = 30;
   std::map<std::string, Range> speculars;  // canonical, by source model; if missing, the whole range
 };
-
-// A ManifestItem is one converter. SweptItem and NetworkItem need a renderer.
-struct SweptItem {  // a pair of models, built-in or of real renderers
-  std::string source, target;
-  SweepRecipe recipe;
-};
 struct InverseItem {  // the inverse of another item's fit
   std::string of;
-};
-struct FinishedItem {  // a formula from a paper, or a conversion of whole materials
-  AnyFit fit;
 };
 struct ChainItem {  // other items, one after another
   std::vector<std::string> steps;
@@ -57,7 +49,8 @@ struct NetworkItem {
 
 struct ManifestItem {
   std::string id;
-  std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
+  // An AnyFit is finished: a formula from a paper, or a conversion of whole materials.
+  std::variant<SweptItem, InverseItem, AnyFit, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // seed of its fit and of random materials
   // This is true if a difference between the models' light is accepted (table/light.hpp). The list
@@ -67,9 +60,7 @@ struct ManifestItem {
 };
 
 // A Manifest holds the items, each after its inputs.
-struct Manifest {
-  std::vector<ManifestItem> items;
-};
+using Manifest = std::vector<ManifestItem>;
 
 // Reads the text of a manifest. Throws kInput, beginning with `context`, for text that is not a manifest of
 // version kManifestVersion. Also throws it for an id that is defined twice or is not an identifier, and for

@@ -194,7 +194,7 @@ std::string page(const FitFolder& folder) {
 
 }  // namespace
 
-std::vector<ReportFile> report(const FitFolder& folder) {
+std::vector<EmittedFile> report(const FitFolder& folder) {
   return {{kReportName, page(folder)}, {kFiguresName, converters_csv(folder)}};
 }
 

@@ -5,20 +5,16 @@
 #include <vector>
 
 #include "build/fit_folder.hpp"
+#include "emit/emit.hpp"
 
 namespace remap {
 
 inline constexpr const char* kReportName = "README.md";
 inline constexpr const char* kFiguresName = "converters.csv";
 
-struct ReportFile {
-  std::string name;  // name in the folder of fits
-  std::string text;
-};
-
 // Returns the page in Markdown and the table of all figures.
 // The same fits give the same bytes on every machine.
-std::vector<ReportFile> report(const FitFolder& folder);
+std::vector<EmittedFile> report(const FitFolder& folder);
 
 // Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
 // converter. Converters of width and specular come first, by rising image error, then converters between

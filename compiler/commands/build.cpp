@@ -26,7 +26,7 @@ struct BuildCommand {
 void run_check(const BuildCommand& command, const Manifest& manifest) {
   const std::vector<std::string> reasons = stale(manifest, command.folders);
   if (command.json)
-    std::cout << Json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2) << "\n";
+    std::cout << Json({{"items", manifest.size()}, {"stale", reasons}}).dump(2) << "\n";
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
@@ -43,12 +43,12 @@ std::string stages_text(const BuiltItem& item) {
   const auto add = [&](const char* stage, double seconds) {
     if (seconds >= 0.1) text += (text.empty() ? " (" : "; ") + (stage + (" " + seconds_text(seconds)));
   };
-  add("sweep", item.seconds.sweep);
+  add("sweep", item.sweep_seconds);
   if (!text.empty())
-    text += ", of it " + seconds_text(item.seconds.pictures) + " for " + std::to_string(item.pictures) +
+    text += ", of it " + seconds_text(item.picture_seconds) + " for " + std::to_string(item.pictures) +
             " pictures";
-  add("fit", item.seconds.fit);
-  add("lowering", item.seconds.lowering);
+  add("fit", item.fit_seconds);
+  add("lowering", item.lowering_seconds);
   return text.empty() ? "" : text + ")";
 }
 
@@ -56,8 +56,8 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
             double seconds) {
   const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
   if (command.json) {
-    Json json = {{"items", manifest.items.size()}, {"seconds", seconds},     {"pruned", result.pruned},
-                 {"vanished", vanished},           {"failed", Json::list()}, {"built", Json::list()}};
+    Json json = {{"items", manifest.size()}, {"seconds", seconds},     {"pruned", result.pruned},
+                 {"vanished", vanished},     {"failed", Json::list()}, {"built", Json::list()}};
     for (const FailedItem& item : result.failed)
       json["failed"].push_back({{"id", item.id}, {"why", item.why}});
     for (const BuiltItem& item : result.built)
@@ -68,11 +68,11 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
                                {"kept_table", item.kept_table},
                                {"pictures", item.pictures},
                                {"seconds",
-                                {{"sweep", item.seconds.sweep},
-                                 {"pictures", item.seconds.pictures},
-                                 {"fit", item.seconds.fit},
-                                 {"lowering", item.seconds.lowering},
-                                 {"all", item.seconds.all}}}});
+                                {{"sweep", item.sweep_seconds},
+                                 {"pictures", item.picture_seconds},
+                                 {"fit", item.fit_seconds},
+                                 {"lowering", item.lowering_seconds},
+                                 {"all", item.seconds}}}});
     std::cout << json.dump(2) << "\n";
     return;
   }
@@ -87,9 +87,9 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
   for (const BuiltItem& item : result.built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
-              << seconds_text(item.seconds.all) << stages_text(item) << "\n";
-  std::cerr << manifest.items.size() << " items, " << result.built.size() << " built, "
-            << seconds_text(seconds) << "\n";
+              << seconds_text(item.seconds) << stages_text(item) << "\n";
+  std::cerr << manifest.size() << " items, " << result.built.size() << " built, " << seconds_text(seconds)
+            << "\n";
 }
 
 void require_success(const BuildResult& result, std::size_t items) {
@@ -113,7 +113,7 @@ void run(const BuildCommand& command) {
   const auto renderer = make_renderers(command.renderers);
   BuildResult result;
   {
-    Progress progress("build " + command.folders.fits.string(), manifest.items.size());
+    Progress progress("build " + command.folders.fits.string(), manifest.size());
     BuildExecution execution;
     execution.jobs = command.jobs;
     execution.force = command.force;
@@ -123,7 +123,7 @@ void run(const BuildCommand& command) {
     result = build(*renderer, manifest, command.folders, execution);
   }
   report(command, manifest, result, stopwatch.seconds());
-  require_success(result, manifest.items.size());
+  require_success(result, manifest.size());
 }
 
 }  // namespace

@@ -17,16 +17,9 @@ struct CheckOptions {
   bool json = false, accept_light = false;
 };
 
-// A Checked holds the findings on a table of either form.
-struct Checked {
-  std::string name;
-  std::size_t rows = 0;
-  std::vector<Finding> findings;
-};
-
-void print_json(const Checked& checked) {
-  Json json = {{"table", checked.name}, {"rows", checked.rows}, {"findings", Json::list()}};
-  for (const Finding& finding : checked.findings)
+void print_json(const std::string& name, std::size_t rows, const std::vector<Finding>& findings) {
+  Json json = {{"table", name}, {"rows", rows}, {"findings", Json::list()}};
+  for (const Finding& finding : findings)
     json["findings"].push_back({{"severity", severity_name(finding.severity)},
                                 {"kind", finding.kind},
                                 {"line", finding.line},
@@ -34,28 +27,29 @@ void print_json(const Checked& checked) {
   std::cout << json.dump(2) << "\n";
 }
 
-void run(const CheckOptions& options) {
-  const Checked checked = std::visit(
-      [&](const auto& table) {
-        return Checked{table.name, table.rows.size(), check_table(table, options.accept_light)};
-      },
-      options.table.read_any());
+// Checks a table of either form.
+template <typename AnyForm>
+void check(const AnyForm& table, const CheckOptions& options) {
+  const std::size_t rows = table.rows.size();
+  const std::vector<Finding> findings = check_table(table, options.accept_light);
   if (options.json)
-    print_json(checked);
+    print_json(table.name, rows, findings);
   else
-    for (const Finding& finding : checked.findings) std::cout << finding_text(checked.name, finding) << "\n";
-  const auto errors =
-      std::count_if(checked.findings.begin(), checked.findings.end(),
-                    [](const Finding& finding) { return finding.severity == Severity::kError; });
+    for (const Finding& finding : findings) std::cout << finding_text(table.name, finding) << "\n";
+  const auto errors = std::ranges::count(findings, Severity::kError, &Finding::severity);
   if (errors != 0)
-    throw input_error(checked.name + ": " + std::to_string(errors) +
+    throw input_error(table.name + ": " + std::to_string(errors) +
                       (errors == 1 ? " error prevents" : " errors prevent") + " a fit");
   if (!options.json)
-    std::cout << checked.name << ": " << checked.rows << " rows, can be fitted"
-              << (checked.findings.empty() ? ""
-                                           : " (" + std::to_string(checked.findings.size()) +
-                                                 (checked.findings.size() == 1 ? " remark)" : " remarks)"))
+    std::cout << table.name << ": " << rows << " rows, can be fitted"
+              << (findings.empty() ? ""
+                                   : " (" + std::to_string(findings.size()) +
+                                         (findings.size() == 1 ? " remark)" : " remarks)"))
               << "\n";
+}
+
+void run(const CheckOptions& options) {
+  std::visit([&](const auto& table) { check(table, options); }, options.table.read_any());
 }
 
 }  // namespace

@@ -27,11 +27,6 @@ struct EmitCommand {
   bool all = false, check = false, force = false;
 };
 
-struct GeneratedFile {
-  std::filesystem::path path;
-  std::string content;
-};
-
 FitFolder chosen_fits(const EmitCommand& options) {
   if (options.all) return load_fit_folder(options.fit_folder);
   FitFolder chosen;
@@ -40,30 +35,29 @@ FitFolder chosen_fits(const EmitCommand& options) {
 }
 
 // Returns a file for each named fit.
-std::vector<GeneratedFile> generate_functions(const EmitCommand& options, const FitFolder& chosen) {
+std::vector<EmittedFile> generate_functions(const EmitCommand& options, const FitFolder& chosen) {
   if (!chosen.workflows.empty() || !chosen.warps.empty())
     throw usage_error(
         "--language: converters of whole materials can only become C++ headers (remove this option)");
-  std::vector<GeneratedFile> files;
+  std::vector<EmittedFile> files;
   for (const Fit& fit : chosen.fits)
-    files.push_back({options.output / (fit.id + extension_of(*options.language)),
-                     emit_functions({fit}, *options.language, fit.id)});
+    files.push_back(
+        {fit.id + extension_of(*options.language), emit_functions({fit}, *options.language, fit.id)});
   return files;
 }
 
-std::vector<GeneratedFile> generate(const EmitCommand& options) {
+std::vector<EmittedFile> generate(const EmitCommand& options) {
   const FitFolder chosen = chosen_fits(options);
   if (options.language) return generate_functions(options, chosen);
-  std::vector<GeneratedFile> files;
+  std::vector<EmittedFile> files;
   const auto add_header = [&](const auto& fit, std::string text) {
-    files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
+    files.push_back({fit.id + ".hpp", std::move(text)});
   };
   for (const Fit& fit : chosen.fits) add_header(fit, emit_header(fit));
   for (const WorkflowFit& fit : chosen.workflows) add_header(fit, emit_header(fit));
   for (const WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
   if (options.all)
-    for (EmittedFile& file : emit_shared_files(chosen.fits))
-      files.push_back({options.output / file.name, std::move(file.text)});
+    for (EmittedFile& file : emit_shared_files(chosen.fits)) files.push_back(std::move(file));
   return files;
 }
 
@@ -80,19 +74,20 @@ bool is_generated(const std::filesystem::path& path) {
 }
 
 // Returns a line for every file that is missing or differs from its fit, and for every header without a fit.
-std::vector<std::string> differences(const EmitCommand& options, const std::vector<GeneratedFile>& files) {
+std::vector<std::string> differences(const EmitCommand& options, const std::vector<EmittedFile>& files) {
   std::vector<std::string> found;
-  for (const GeneratedFile& file : files) {
-    if (!std::filesystem::exists(file.path))
-      found.push_back(file.path.string() + ": missing");
-    else if (read_file(file.path) != file.content)
-      found.push_back(file.path.string() + ": differs from its fit");
+  for (const EmittedFile& file : files) {
+    const std::filesystem::path path = options.output / file.name;
+    if (!std::filesystem::exists(path))
+      found.push_back(path.string() + ": missing");
+    else if (read_file(path) != file.text)
+      found.push_back(path.string() + ": differs from its fit");
   }
   if (!options.all || !std::filesystem::is_directory(options.output)) return found;
   for (const auto& entry : std::filesystem::directory_iterator(options.output)) {
     if (entry.path().extension() != ".hpp") continue;
-    const bool known = std::any_of(files.begin(), files.end(), [&](const GeneratedFile& file) {
-      return file.path.filename() == entry.path().filename();
+    const bool known = std::ranges::any_of(files, [&](const EmittedFile& file) {
+      return std::filesystem::path(file.name).filename() == entry.path().filename();
     });
     if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
   }
@@ -107,12 +102,16 @@ void run(const EmitCommand& options) {
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");
-  const std::vector<GeneratedFile> files = generate(options);
+  const std::vector<EmittedFile> files = generate(options);
   if (!options.check) {
-    for (const GeneratedFile& file : files) require_new(file.path, options.force || is_generated(file.path));
-    for (const GeneratedFile& file : files) {
-      write_file(file.path, file.content);
-      std::cerr << file.path.string() << "\n";
+    for (const EmittedFile& file : files) {
+      const std::filesystem::path path = options.output / file.name;
+      require_new(path, options.force || is_generated(path));
+    }
+    for (const EmittedFile& file : files) {
+      const std::filesystem::path path = options.output / file.name;
+      write_file(path, file.text);
+      std::cerr << path.string() << "\n";
     }
     return;
   }

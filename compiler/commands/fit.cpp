@@ -43,7 +43,7 @@ struct FitCommand {
   FitOptions options;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
-  double tolerance = 1e-3;  // tolerance of lowering
+  double tolerance = kLoweringTolerance;
   bool swap = false, force = false, json = false;
 };
 
@@ -56,7 +56,7 @@ void require_consistent(const FitCommand& command, const Command& app) {
   };
   require_model("--form", "parametric");
   for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
-  if (!command.options.regression.form.empty()) find_form(command.options.regression.form);
+  if (!command.options.form.empty()) find_form(command.options.form);
 }
 
 void report(const FitCommand& command, const std::filesystem::path& path, const Fit& fit) {
@@ -105,15 +105,15 @@ void require_material_options(const FitCommand& command) {
 }
 
 MaterialNetworkOptions network_options(const FitCommand& command, const Command& app) {
-  const MlpOptions& mlp = command.options.regression.mlp;
+  const MlpOptions& mlp = command.options.mlp;
   MaterialNetworkOptions options;
   options.id = command.options.id;
   if (app.count("--layers") != 0) options.hidden = mlp.hidden;
   if (app.count("--activation") != 0) options.activation = mlp.activation;
   if (app.count("--starts") != 0) options.starts = mlp.starts;
   if (app.count("--held-out") != 0) options.held_out_fraction = command.options.held_out_fraction;
-  options.seed = command.options.regression.seed;
-  options.jobs = command.options.regression.jobs;
+  options.seed = command.options.seed;
+  options.jobs = command.options.jobs;
   return options;
 }
 
@@ -163,7 +163,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   LightMatch light = light_match(table.comments);
   light.accepted = light.accepted || command.options.accept_light;
   require_light(light, table.name);
-  require_layers(command.options.regression.mlp.hidden, 6, 4);
+  require_layers(command.options.mlp.hidden, 6, 4);
   require_output_folder(command.folder);
   new_path(command, command.options.id);
   const WorkflowFit fit = [&] {
@@ -178,7 +178,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
 // Keeps a fit for remapc even if it cannot be lowered. Only texremap and headers need its converter.
 void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
-    add_converter(fit, {command.tolerance, command.tolerance});
+    add_converter(fit, command.tolerance);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNumeric) throw;
     print_message("remapc", "warning: " + fit->id +
@@ -189,7 +189,7 @@ void lower_if_possible(const FitCommand& command, Fit* fit) {
 
 void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const Command&) {
   const Table table = command.swap ? swapped(given) : given;
-  require_layers(command.options.regression.mlp.hidden, 2, 1);
+  require_layers(command.options.mlp.hidden, 2, 1);
   require_output_folder(command.folder);
   const std::string& id = command.options.id;
   const std::filesystem::path path =
@@ -214,9 +214,9 @@ void run(const FitCommand& command, const Command& app) {
 }
 
 void add_regression_options(Command& app, FitCommand& command) {
-  RegressionOptions& regression = command.options.regression;
+  FitOptions& options = command.options;
   app.option_group("Regression");
-  app.add_option("--model NAME", command.options.kind, one_of(kModels, "kind of fit"),
+  app.add_option("--model NAME", options.kind, one_of(kModels, "kind of fit"),
                  "auto: the fewest terms that pictures cannot tell from more; parametric: polynomial and "
                  "exponentials of the paper; svr: support vectors; mlp: a small network")
       ->default_text("auto");
@@ -224,26 +224,25 @@ void add_regression_options(Command& app, FitCommand& command) {
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(kRareOptions);
-  app.add_option("--form FORM", regression.form, "Parametric: paper or paper+pole (default: paper)");
-  app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
+  app.add_option("--form FORM", options.form, "Parametric: paper or paper+pole (default: paper)");
+  app.add_option("--layers", options.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->range(1, kMostUnits);
-  app.add_option("--activation NAME", regression.mlp.activation, one_of(kActivations, "activation function"),
+  app.add_option("--activation NAME", options.mlp.activation, one_of(kActivations, "activation function"),
                  "Network: activation function")
-      ->default_text(std::string(activation_name(regression.mlp.activation)));
-  app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
+      ->default_text(std::string(activation_name(options.mlp.activation)));
+  app.add_option("--starts", options.mlp.starts, "Network: trainings, of which the best is kept")
       ->range(1, kMostStarts);
-  app.add_option("--held-out", command.options.held_out_fraction,
-                 "Fraction of the rows held out to measure errors");
+  app.add_option("--held-out", options.held_out_fraction, "Fraction of the rows held out to measure errors");
   app.add_option(
          "--lower TOLERANCE", command.tolerance,
          "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
          "target alpha, relative to the largest one for target specular")
       ->positive();
-  app.add_option("--seed", regression.seed, "Seed of the split and all other random choices")
+  app.add_option("--seed", options.seed, "Seed of the split and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
-  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");
+  app.add_option("--jobs", options.jobs, "Threads, 0: one per core; the fit does not depend on it");
 }
 
 void add_output_options(Command& app, FitCommand& command) {

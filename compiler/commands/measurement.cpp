@@ -165,8 +165,8 @@ void Measurement::write(const std::string& table, const Comments& comments) {
   progress_.reset();
   write_plain_table(options_.output, table);
   light_ = light_match(comments);
-  if (const auto remark = light_remark(light_))
-    print_message("remapc", "warning: " + options_.output.string() + ": " + remark->text);
+  if (const std::string remark = light_remark(light_); !remark.empty())
+    print_message("remapc", "warning: " + options_.output.string() + ": " + remark);
   for (const std::string& remark : renderer_->remarks()) std::cerr << "remapc: " << remark << "\n";
 }
 
@@ -182,7 +182,7 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
     counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + status;
   }
   if (options_.json) {
-    const auto remark = light_remark(light_);
+    const std::string remark = light_remark(light_);
     Json json = {{"table", table}};
     if (fields.fields() != nullptr) json.update(fields);
     json.update({{"rows", rows},
@@ -190,7 +190,7 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
                  {"rms_image_error", rms_error},
                  {kLightScaleComment, light_.scale},
                  {kDiffuseErrorComment, light_.diffuse_error},
-                 {"light_warning", remark ? Json(remark->text) : nullptr},
+                 {"light_warning", remark.empty() ? nullptr : Json(remark)},
                  {"pictures_rendered", pictures.rendered},
                  {"pictures_cached", pictures.cached},
                  {"workers_lost", pictures.lost_workers},

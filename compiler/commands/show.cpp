@@ -68,71 +68,71 @@ std::string curve_text(const AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
-// A PrintMapping prints a mapping as formulas of a = alpha1 and s = specular1.
-struct PrintMapping {
-  void operator()(const Parametric& form) const {
-    for (std::size_t j = 0; j < form.alpha.size(); ++j) {
-      std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
-      for (std::size_t i = 0; i < form.alpha[j].size(); ++i)
-        std::cout << summand(form.alpha[j][i], i == 0) << " a" << (i == 0 ? "" : "^" + std::to_string(i + 1));
-      std::cout << ")" << specular_power(j);
-    }
-    std::cout << "\n";
-    for (std::size_t t = 0; t < form.specular.size(); ++t) {
-      const auto& [power, factor] = form.specular[t];
-      std::cout << (t == 0 ? "  specular2 = (" : "            + (") << curve_text(factor) << ")"
-                << specular_power(static_cast<std::size_t>(power)) << "\n";
-    }
-    std::cout << "  phi(c, x) = (1 - exp(-c x)) / c\n";
-  }
-  void operator()(const Svr& svr) const {
-    print("alpha2", svr.alpha);
-    print("specular2", svr.specular);
-  }
-  void operator()(const Mlp& mlp) const {
-    print("alpha2", mlp.alpha);
-    print("specular2", mlp.specular);
-  }
-  void operator()(const CompactForm& form) const {
-    std::cout << "  t = specular1 / (specular1 + " << decimal_text(form.pole) << ")\n  alpha2 = alpha1 ("
-              << factor_text(form.alpha) << ")\n  specular2 = specular1 (" << factor_text(form.specular)
-              << ")\n";
-    if (form.specular_limit)
-      std::cout << "  above specular2 " << decimal_text(*form.specular_limit)
-                << ", alpha2 changes by alpha1 (" << decimal_text(form.hinge.turn) << " + "
-                << decimal_text(form.hinge.turn_by_alpha) << " alpha1) x / (1 + "
-                << decimal_text(form.hinge.bend) << " x), x the share that is cut off\n";
-    if (form.alpha_limit)
-      std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
-                << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
-  }
+std::string decimal_text(float value) { return number_text(decimal_value(value)); }
 
- private:
-  static void print(const std::string& output, const KernelExpansion& expansion) {
-    std::cout << "  " << output << ": " << expansion.count() << " Gaussians of "
-              << inputs_text(expansion.inputs.size()) << ", gamma " << number_text(expansion.gamma) << "\n";
+std::string factor_text(const FactorTerms& factor) {
+  std::string text;
+  for (std::size_t j = 0; j < factor.size(); ++j)
+    for (std::size_t i = 0; i < factor[j].size(); ++i) {
+      const std::string power = (j == 0   ? ""
+                                 : j == 1 ? " t"
+                                          : " t^" + std::to_string(j)) +
+                                (i == 0   ? ""
+                                 : i == 1 ? " alpha1"
+                                          : " alpha1^" + std::to_string(i));
+      text += (text.empty() ? "" : " + ") + decimal_text(factor[j][i]) + power;
+    }
+  return text;
+}
+
+void print_output(const std::string& output, const KernelExpansion& expansion) {
+  std::cout << "  " << output << ": " << expansion.count() << " Gaussians of "
+            << inputs_text(expansion.inputs.size()) << ", gamma " << number_text(expansion.gamma) << "\n";
+}
+
+void print_output(const std::string& output, const Network& network) {
+  std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
+  for (const Layer& layer : network.layers) std::cout << " " << layer.output_count();
+  std::cout << ", " << activation_name(network.activation) << "\n";
+}
+
+// Each print_mapping() prints a mapping as formulas of a = alpha1 and s = specular1.
+void print_mapping(const Parametric& form) {
+  for (std::size_t j = 0; j < form.alpha.size(); ++j) {
+    std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
+    for (std::size_t i = 0; i < form.alpha[j].size(); ++i)
+      std::cout << summand(form.alpha[j][i], i == 0) << " a" << (i == 0 ? "" : "^" + std::to_string(i + 1));
+    std::cout << ")" << specular_power(j);
   }
-  static void print(const std::string& output, const Network& network) {
-    std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
-    for (const Layer& layer : network.layers) std::cout << " " << layer.output_count();
-    std::cout << ", " << activation_name(network.activation) << "\n";
+  std::cout << "\n";
+  for (std::size_t t = 0; t < form.specular.size(); ++t) {
+    const auto& [power, factor] = form.specular[t];
+    std::cout << (t == 0 ? "  specular2 = (" : "            + (") << curve_text(factor) << ")"
+              << specular_power(static_cast<std::size_t>(power)) << "\n";
   }
-  static std::string decimal_text(float value) { return number_text(decimal_value(value)); }
-  static std::string factor_text(const FactorTerms& factor) {
-    std::string text;
-    for (std::size_t j = 0; j < factor.size(); ++j)
-      for (std::size_t i = 0; i < factor[j].size(); ++i) {
-        const std::string power = (j == 0   ? ""
-                                   : j == 1 ? " t"
-                                            : " t^" + std::to_string(j)) +
-                                  (i == 0   ? ""
-                                   : i == 1 ? " alpha1"
-                                            : " alpha1^" + std::to_string(i));
-        text += (text.empty() ? "" : " + ") + decimal_text(factor[j][i]) + power;
-      }
-    return text;
-  }
-};
+  std::cout << "  phi(c, x) = (1 - exp(-c x)) / c\n";
+}
+void print_mapping(const Svr& svr) {
+  print_output("alpha2", svr.alpha);
+  print_output("specular2", svr.specular);
+}
+void print_mapping(const Mlp& mlp) {
+  print_output("alpha2", mlp.alpha);
+  print_output("specular2", mlp.specular);
+}
+void print_mapping(const CompactForm& form) {
+  std::cout << "  t = specular1 / (specular1 + " << decimal_text(form.pole) << ")\n  alpha2 = alpha1 ("
+            << factor_text(form.alpha) << ")\n  specular2 = specular1 (" << factor_text(form.specular)
+            << ")\n";
+  if (form.specular_limit)
+    std::cout << "  above specular2 " << decimal_text(*form.specular_limit) << ", alpha2 changes by alpha1 ("
+              << decimal_text(form.hinge.turn) << " + " << decimal_text(form.hinge.turn_by_alpha)
+              << " alpha1) x / (1 + " << decimal_text(form.hinge.bend)
+              << " x), x the share that is cut off\n";
+  if (form.alpha_limit)
+    std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
+              << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
+}
 
 std::string percent_text(double share) { return number_text(rounded_up(100.0 * share, 2)) + " %"; }
 
@@ -251,7 +251,7 @@ void show_card(const Fit& fit, const ShowOptions& options) {
   print_trust(fit);
   print_round_trip(fit, options.fit_folder);
   std::cout << "Mapping\n";
-  std::visit(PrintMapping{}, fit.mapping);
+  std::visit([](const auto& kind) { print_mapping(kind); }, fit.mapping);
   print_limits(fit);
   print_method(fit);
   std::cout << (fit.table.name.empty() ? "No table" : "Table " + fit.table.name) << "\n";
@@ -310,8 +310,8 @@ void show_card(const WarpMapFit& fit, const ShowOptions&) {
 
 void warn_of_light(const Fit& fit) {
   const Comments comments(fit.table.comments.begin(), fit.table.comments.end());
-  if (const auto remark = light_remark(light_match(comments)))
-    print_message("remapc", "warning: " + fit.id + ": " + remark->text);
+  if (const std::string remark = light_remark(light_match(comments)); !remark.empty())
+    print_message("remapc", "warning: " + fit.id + ": " + remark);
 }
 void warn_of_light(const WorkflowFit&) {}
 void warn_of_light(const WarpMapFit&) {}

@@ -28,7 +28,7 @@ struct TableInput {
 
 Reader<ColumnMap> columns_reader();
 
-// Adds --accept-light, which accepts light that light_remark() (table/light.hpp) reports as an error.
+// Adds --accept-light, which accepts light that is_wrong_light() (table/light.hpp) finds.
 void add_accept_light_flag(Command& app, bool& accept_light);
 
 }  // namespace remap

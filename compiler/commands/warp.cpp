@@ -53,8 +53,8 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
   return strokes;
 }
 
-WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
-  return {value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
+AppearanceDistance distance_of(const WarpCommand& command, AppearanceDistance usual) {
+  return value_named(kAppearanceDistances, command.distance).value_or(usual);
 }
 
 WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
@@ -106,7 +106,7 @@ Json report_of(const WarpDiagnostics& found) {
           {"stroke_distance_affine", found.stroke_contradiction},
           {"strokes", found.strokes},
           {"worst_stroke", found.worst_stroke + 1},
-          {"largest_overlap", found.shared.overlap.share},
+          {"largest_overlap", found.shared.share},
           {"source_texels_left_out", found.source_left_out},
           {"template_texels_left_out", found.target_left_out}};
 }
@@ -138,8 +138,8 @@ void warp_textures(const WarpCommand& command) {
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source.frame(), target.frame());
   const Stopwatch stopwatch;
-  const WarpFit fit =
-      fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
+  const WarpFit fit = fit_warp(source.material, target.material, strokes,
+                               distance_of(command, AppearanceDistance::kRelative), command.exact);
   const double seconds = stopwatch.seconds();
   WarpMapFit file = fit_file(command, fit, strokes.size());
   if (source.is_albedo) file.method[kWarpSourceMaps] = kDiffuseAlone;
@@ -153,7 +153,7 @@ void warp_textures(const WarpCommand& command) {
   if (!command.copy.empty())
     for (const std::filesystem::path& copy :
          write_copied_set(command.copy, copy_exactly(fit, source.material, target.material), source.frame(),
-                          {target.material, target.frame(), {}}))
+                          target.material, target.frame()))
       json["copies"].push_back(copy.string());
   if (!command.report.empty())
     write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
@@ -177,7 +177,7 @@ void warp_textures(const WarpCommand& command) {
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 
-using MaterialSet = std::variant<TextureMaterial, TabulatedSet>;
+using MaterialSet = std::variant<TextureMaterial, TabulatedMaterial>;
 
 MaterialSet read_material_set(const std::string& folder, const std::string& model) {
   if (is_tabulated_folder(folder)) return read_tabulated_set(folder);
@@ -185,11 +185,14 @@ MaterialSet read_material_set(const std::string& folder, const std::string& mode
 }
 
 MaterialRef ref_of(const MaterialSet& set) {
-  return std::visit([](const auto& kind) { return MaterialRef(kind.material); }, set);
+  if (const auto* maps = std::get_if<TextureMaterial>(&set)) return maps->material;
+  return std::get<TabulatedMaterial>(set);
 }
 
 MapFrame frame_of(const MaterialSet& set) {
-  return std::visit([](const auto& kind) { return kind.frame(); }, set);
+  if (const auto* maps = std::get_if<TextureMaterial>(&set)) return maps->frame();
+  const auto& table = std::get<TabulatedMaterial>(set);
+  return {table.name, table.width, table.height};
 }
 
 void require_copy_alone(const WarpCommand& command) {
@@ -209,11 +212,9 @@ void warp_tables(const WarpCommand& command) {
   const AppearanceDistance usual =
       from.is_profiles() ? AppearanceDistance::kPlain : AppearanceDistance::kRelative;
   const AppearanceMatch match = match_appearances(
-      from, to, strokes_of(command, frame_of(source), frame_of(target)), options_of(command, usual));
-  const auto* table = std::get_if<TabulatedSet>(&target);
+      from, to, strokes_of(command, frame_of(source), frame_of(target)), distance_of(command, usual));
   const auto files =
-      write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source),
-                       {to, frame_of(target), table != nullptr ? table->table : std::filesystem::path()});
+      write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source), to, frame_of(target));
   if (!command.json) return print_words(command.copy, match.diagnostics);
   Json json = {{"diagnostics", report_of(match.diagnostics)}, {"warnings", warnings_of(match.diagnostics)}};
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());

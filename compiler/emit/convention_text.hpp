@@ -1,29 +1,25 @@
-// This file gives the names of the encodings of widths in generated headers.
+// This file gives the meaning of the encodings of widths in generated headers.
 #pragma once
 
 #include "remap/converter.hpp"
 
 namespace remap {
 
-struct ConventionText {
-  const char* meaning;  // words for a comment in the header
-  const char* formula;  // a formula of alpha for people; empty if the parameter is alpha itself
-};
-
-inline ConventionText convention_text(RoughnessEncoding convention) {
-  switch (convention) {
+// Returns words for a comment in the header.
+inline const char* meaning_of(RoughnessEncoding encoding) {
+  switch (encoding) {
     case RoughnessEncoding::kAlpha:
       break;
     case RoughnessEncoding::kRoughness:
-      return {"perceptual roughness, square root of the microfacet width, (0, 1]", "roughness^2"};
+      return "perceptual roughness, square root of the microfacet width, (0, 1]";
     case RoughnessEncoding::kExponent:
-      return {"Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0", "sqrt(2 / (exponent + 2))"};
+      return "Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0";
     case RoughnessEncoding::kGlossiness:
-      return {"1 - square root of the microfacet width, [0, 1)", "(1 - glossiness)^2"};
+      return "1 - square root of the microfacet width, [0, 1)";
     case RoughnessEncoding::kSquared:
-      return {"square of the microfacet width, (0, 1]", "sqrt(squared)"};
+      return "square of the microfacet width, (0, 1]";
   }
-  return {"microfacet width, (0, 1]", ""};
+  return "microfacet width, (0, 1]";
 }
 
 }  // namespace remap

@@ -61,7 +61,7 @@ HeaderEnd end_of(const ModelSide& side) {
   return {
       side.model,
       std::string(encoding_name(side.roughness)),
-      {{"width", 1, convention_text(side.roughness).meaning},
+      {{"width", 1, meaning_of(side.roughness)},
        {"specular", 1,
         side.specular == "f0" ? "reflectance at normal incidence, linear" : "specular reflectance, linear"}}};
 }

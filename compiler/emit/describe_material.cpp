@@ -42,7 +42,7 @@ std::vector<float> values_of(const SpecularMaterial& material) {
 
 GoldenValues golden_values(const WorkflowConversion& conversion, const MetallicMaterial& metallic) {
   WorkflowConversion forward = conversion;
-  forward.formula = Equation2{};
+  forward.formula = ClosedFormula::kEquation2;
   SpecularMaterial specular = to_specular(forward, metallic);
   if (!conversion.is_to_metallic()) return {values_of(metallic), values_of(specular), {}};
   // Make the last channel of this material darker, so that no metallic material can express it.
@@ -134,8 +134,7 @@ HeaderData describe(const WorkflowFit& fit) {
   data.provenance = provenance(fit);
   for (const MetallicMaterial& material : golden_materials())
     data.golden.push_back(golden_values(conversion, material));
-  if (auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
-    learned->network = folded(learned->network);
+  if (auto* network = std::get_if<Network>(&conversion.formula)) *network = folded(*network);
   data.code = std::move(conversion);
   return data;
 }

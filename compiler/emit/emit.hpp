@@ -20,13 +20,15 @@ std::string emit_header(const Fit& fit);
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 
-// An EmittedFile is made from all fits together, in the order of their ids. `converters.json` is the data of
-// texremap. The converters between models of the hub, and of exponents, are written in each language
-// (`languages/converters.h`, ...). Throws kNumeric for a fit without a converter.
+// An EmittedFile is the text of a file that is made from fits.
 struct EmittedFile {
-  std::string name;  // within the folder of headers
+  std::string name;  // within the folder of results
   std::string text;
 };
+
+// Returns the files that are made from all fits together, in the order of their ids. `converters.json` is the
+// data of texremap. The converters between models of the hub, and of exponents, are written in each language
+// (`languages/converters.h`, ...). Throws kNumeric for a fit without a converter.
 std::vector<EmittedFile> emit_shared_files(std::vector<Fit> fits);
 
 }  // namespace remap

@@ -2,7 +2,6 @@
 // templates/converter*.in is for width and specular, templates/material*.in for whole materials.
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"
 #include "remap/version.hpp"

@@ -5,7 +5,6 @@
 
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "emit/convention_text.hpp"
 #include "emit/converter_formula.hpp"
 #include "emit/header_data.hpp"
 #include "formula/graph_writer.hpp"

@@ -7,45 +7,45 @@
 namespace remap {
 namespace {
 
-// A CodeOf returns the code of each formula.
-struct CodeOf {
-  MaterialCode operator()(const Equation2&) const {
-    // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions
-    // to the metallic workflow.
-    return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
-  }
-  MaterialCode operator()(const Projection& projection) const {
-    return to_metallic("projection", "project", literal(projection.prior) + ", ");
-  }
-  MaterialCode operator()(const Equation3& equation) const {
-    const bool by_albedo = equation.mean == MetallicMean::kAlbedo;
-    return to_metallic("equation_3", "solve_equation_3", by_albedo ? "true, " : "false, ");
-  }
-  MaterialCode operator()(const KhronosSolver&) const { return to_metallic("khronos", "solve_khronos", ""); }
-  MaterialCode operator()(const LearnedNetwork& learned) const {
-    const Network& network = learned.network;
-    return code("\ninline constexpr std::size_t kBlock = " + std::to_string(network_block(network)) + ";\n" +
-                    network_helpers(network.activation) + network_function("material_network", network) +
-                    code_files({"learned"}),
-                "kBlock", "by_network", "");
-  }
+MaterialCode code_with(const std::string& functions, const std::string& block, const std::string& function,
+                       const std::string& argument, const std::string& within = "1e-4f") {
+  MaterialCode code;
+  code.functions = code_files({"bits", "floats", "conventions", "rows", "width"}) + functions;
+  code.block = block;
+  code.call = function + "(detail::kConventions, " + argument + "from, to)";
+  code.within = within;
+  return code;
+}
 
- private:
-  static MaterialCode code(const std::string& functions, const std::string& block,
-                           const std::string& function, const std::string& argument,
-                           const std::string& within = "1e-4f") {
-    MaterialCode code;
-    code.functions = code_files({"bits", "floats", "conventions", "rows", "width"}) + functions;
-    code.block = block;
-    code.call = function + "(detail::kConventions, " + argument + "from, to)";
-    code.within = within;
-    return code;
+MaterialCode metallic_code(std::string_view file, const std::string& function, const std::string& argument) {
+  return code_with(code_files({"specular_texels", file}), "kMetallicBlock", function, argument);
+}
+
+MaterialCode formula_code(ClosedFormula formula) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions
+      // to the metallic workflow.
+      return code_with(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "",
+                       "4e-6f");
+    case ClosedFormula::kEquation3:
+      return metallic_code("equation_3", "solve_equation_3", "false, ");
+    case ClosedFormula::kEquation3ByAlbedo:
+      return metallic_code("equation_3", "solve_equation_3", "true, ");
+    case ClosedFormula::kKhronos:
+      break;
   }
-  static MaterialCode to_metallic(std::string_view file, const std::string& function,
-                                  const std::string& argument) {
-    return code(code_files({"specular_texels", file}), "kMetallicBlock", function, argument);
-  }
-};
+  return metallic_code("khronos", "solve_khronos", "");
+}
+MaterialCode formula_code(const Projection& projection) {
+  return metallic_code("projection", "project", literal(projection.prior) + ", ");
+}
+MaterialCode formula_code(const Network& network) {
+  return code_with("\ninline constexpr std::size_t kBlock = " + std::to_string(network_block(network)) +
+                       ";\n" + network_helpers(network.activation) +
+                       network_function("material_network", network) + code_files({"learned"}),
+                   "kBlock", "by_network", "");
+}
 
 std::string enumerator(remap::workflow_code::WidthParameter width) {
   switch (width) {
@@ -63,7 +63,8 @@ std::string enumerator(remap::workflow_code::WidthParameter width) {
 
 MaterialCode material_code(const WorkflowConversion& conversion) {
   const remap::workflow_code::Conventions use = conventions_of(conversion);
-  MaterialCode code = std::visit(CodeOf{}, conversion.formula);
+  MaterialCode code =
+      std::visit([](const auto& formula) { return formula_code(formula); }, conversion.formula);
   code.formula = formula_name(conversion.formula);
   code.constants = "static constexpr float kDielectricF0 = " + float_literal(use.dielectric_f0) +
                    ";  // of the metallic workflow";

@@ -27,6 +27,11 @@ constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
 constexpr std::size_t kMostRows = 60;  // largest number of narrow rows, and of other rows
 
+struct Candidate {
+  CandidateRecord record;  // the verdict is empty while it may be chosen
+  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
+};
+
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;
   return {{row.alpha1, row.specular1},
@@ -144,8 +149,8 @@ std::string failure_of(const std::string& what, const Work& work) {
   return "";
 }
 
-void choose(Comparison* comparison) {
-  std::vector<Candidate>& candidates = comparison->candidates;
+// Writes the verdicts and returns the index of the chosen candidate.
+std::size_t choose(std::vector<Candidate>& candidates) {
   PictureErrors best{INFINITY, INFINITY};
   double alpha = INFINITY, specular = INFINITY;
   for (const Candidate& candidate : candidates) {
@@ -191,7 +196,7 @@ void choose(Comparison* comparison) {
                                      : distance(candidates[i].record) <= 1.0
                                          ? "more numbers for no other picture"
                                          : "farther from the best";
-  comparison->chosen = chosen;
+  return chosen;
 }
 
 }  // namespace
@@ -206,11 +211,11 @@ void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit) {
   fit->pictures = {pictures->judged(map), pictures->judged(copied)};
 }
 
-Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
-                         const FitProgress& progress) {
+FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                          const FitProgress& progress) {
   const std::vector<FormSample> samples = samples_of(split.training);
   const std::vector<FormShape> shapes = form_shapes();
-  Comparison comparison;
+  std::vector<Candidate> candidates;  // in the order in which they are printed
   PictureErrors unit;
   if (pictures != nullptr) {
     const CompactForm by_rows = fit_form(samples, base.limits, base.domain, kUnitShape);
@@ -218,7 +223,7 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
         [&](double alpha, double specular) { return form_texel(by_rows, base.domain, alpha, specular); });
   }
   const auto enter = [&](const std::string& name, const auto& mapping_of) {
-    Candidate& candidate = comparison.candidates.emplace_back();
+    Candidate& candidate = candidates.emplace_back();
     candidate.record.name = name;
     candidate.record.verdict = failure_of("not fitted", [&] {
       candidate.fit = base;
@@ -226,8 +231,7 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
       judge_fit(split, pictures, &candidate.fit);
       candidate.record = record_of(name, split, candidate.fit);
     });
-    if (progress)
-      progress(static_cast<double>(comparison.candidates.size()) / static_cast<double>(shapes.size() + 1));
+    if (progress) progress(static_cast<double>(candidates.size()) / static_cast<double>(shapes.size() + 1));
   };
   std::vector<CompactForm> sound, by_pictures;
   enter("copied", [] { return CompactForm{}; });
@@ -250,10 +254,15 @@ Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictu
       return within_limits(rounded_form(form), base.domain, base.limits);
     });
   }
-  choose(&comparison);
-  comparison.candidates[comparison.chosen].fit.method["chosen by"] =
+  Fit& chosen = candidates[choose(candidates)].fit;
+  chosen.method["chosen by"] =
       pictures != nullptr ? "pictures of other materials under other lights" : "rows held out";
-  return comparison;
+  FittedTable fitted{chosen, {}};
+  for (const Candidate& candidate : candidates) {
+    fitted.fit.candidates.push_back(candidate.record);
+    if (candidate.fit.id == base.id) fitted.compared.push_back(candidate.fit);
+  }
+  return fitted;
 }
 
 }  // namespace remap

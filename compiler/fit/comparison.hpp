@@ -9,14 +9,10 @@
 
 namespace remap {
 
-struct Candidate {
-  CandidateRecord record;  // the verdict is empty while it may be chosen
-  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
-};
-
-struct Comparison {
-  std::vector<Candidate> candidates;  // in the order in which they are printed
-  std::size_t chosen = 0;
+// A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
+struct FittedTable {
+  Fit fit;
+  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
 };
 
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
@@ -27,8 +23,8 @@ struct Comparison {
 // best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit
 // step). Without pictures both relative errors on the held-out rows must be within .01, which pictures do not
 // show, or within 1 %. Throws kNumeric with the reasons if no candidate is sound.
-Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
-                         const FitProgress& progress);
+FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                          const FitProgress& progress);
 
 // Sets the errors on the held-out rows and, if there are pictures, the errors of pictures.
 void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit);

@@ -8,7 +8,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "fit/comparison.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
@@ -82,7 +81,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.table = table_record(table.name, bytes, table.comments);
   fit.tool_version = kVersion;
 
-  const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);
+  const RowSplit split = split_rows(table, fit.domain, options.seed, options.held_out_fraction);
   fit.split = split.record;
   std::vector<TableRow> answers = split.training;
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
@@ -91,24 +90,17 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   // Similar pictures are not enough for an inverse: it must return the source's parameters.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
-      is_inverse ? nullptr
-                 : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.regression.jobs);
+      is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);
   if (!options.kind.empty()) {
     const Regression regression =
-        fit_kind(options.kind).fit(inside_rows(split.training), fit.domain, options.regression, progress);
+        fit_kind(options.kind).fit(inside_rows(split.training), fit.domain, options, progress);
     fit.mapping = regression.mapping;
     fit.method = regression.method;
     if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;
     judge_fit(split, pictures.get(), &fit);
     return {fit, {}};
   }
-  const Comparison comparison = compare_forms(fit, split, pictures.get(), progress);
-  FittedTable fitted{comparison.candidates[comparison.chosen].fit, {}};
-  for (const Candidate& candidate : comparison.candidates) {
-    fitted.fit.candidates.push_back(candidate.record);
-    if (candidate.fit.id == fit.id) fitted.compared.push_back(candidate.fit);
-  }
-  return fitted;
+  return compare_forms(fit, split, pictures.get(), progress);
 }
 
 }  // namespace remap

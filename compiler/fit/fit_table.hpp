@@ -7,25 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "fit/comparison.hpp"
 #include "fit/kinds.hpp"
 #include "lower/fit.hpp"
 #include "table/table.hpp"
 
 namespace remap {
-
-struct FitOptions {
-  std::string id;                // if empty, `<source>_to_<target>` from the table
-  std::string_view kind;         // one of kFitKinds; if empty, compare_forms() chooses
-  RegressionOptions regression;  // its seed is also the seed of the split
-  double held_out_fraction = 0.2;
-  bool accept_light = false;  // see light_remark() (table/light.hpp)
-};
-
-// A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
-struct FittedTable {
-  Fit fit;
-  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
-};
 
 // Fits `table`. `bytes` is its file, whose SHA-256 the fit records. Throws kInput if the table does not name
 // its models or cannot be fitted (require_fittable), kUsage for an invalid id, and the errors of the

@@ -14,14 +14,14 @@ using Rows = std::vector<TableRow>;
 }  // namespace
 
 constinit const std::array<FitKind, 3> kFitKinds = {{
-    {"parametric", [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
+    {"parametric", [](const Rows& rows, const Domain& domain, const FitOptions& options,
                       const FitProgress&) { return fit_parametric_kind(rows, domain, options.form); }},
     {"svr",
-     [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
+     [](const Rows& rows, const Domain&, const FitOptions& options, const FitProgress& progress) {
        return fit_svr(rows, {options.seed, options.jobs, {}, {}}, progress);
      }},
     {"mlp",
-     [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
+     [](const Rows& rows, const Domain&, const FitOptions& options, const FitProgress& progress) {
        MlpOptions mlp = options.mlp;
        mlp.seed = options.seed;
        mlp.jobs = options.jobs;

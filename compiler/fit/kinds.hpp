@@ -11,11 +11,15 @@
 
 namespace remap {
 
-struct RegressionOptions {
-  std::uint64_t seed = 1;
-  unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
-  std::string form;   // form of the parametric kind; if empty, the paper's
-  MlpOptions mlp;     // its seed and jobs are replaced by those above
+struct FitOptions {
+  std::string id;          // if empty, `<source>_to_<target>` from the table
+  std::string_view kind;   // one of kFitKinds; if empty, compare_forms() chooses
+  std::uint64_t seed = 1;  // seed of the split and of the regression
+  unsigned jobs = 0;       // threads; 0: one per core. Results do not depend on it
+  std::string form;        // form of the parametric kind; if empty, the paper's
+  MlpOptions mlp;          // its seed and jobs are replaced by those above
+  double held_out_fraction = 0.2;
+  bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
 };
 
 // A FitKind is a regression that a user can name. It fits the rows below the limits of the target. If the
@@ -23,7 +27,7 @@ struct RegressionOptions {
 struct FitKind {
   std::string_view name;
   // Fits the rows. Curves must be sound in `domain`. Throws the errors of the regression.
-  Regression (*fit)(const std::vector<TableRow>& rows, const Domain& domain, const RegressionOptions& options,
+  Regression (*fit)(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
                     const FitProgress& progress);
 };
 

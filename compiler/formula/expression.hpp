@@ -31,6 +31,7 @@ struct Statement {
   std::string name;
   ValueType type = ValueType::kNumber;
   Expression value;
+  std::string comment = {};  // the comment above it
 };
 
 // A FormulaFunction is an expression of its parameters that several formulas can call.

@@ -88,8 +88,8 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
 
 }  // namespace
 
-void add_converter(Fit* fit, const LoweringOptions& options) {
-  fit->converter = converter_data(*fit, lower(*fit, options));
+void add_converter(Fit* fit, double tolerance) {
+  fit->converter = converter_data(*fit, lower(*fit, tolerance));
 }
 
 }  // namespace remap

@@ -200,15 +200,12 @@ CompactForm composed_form(const std::vector<Fit>& steps, const Fit& chain) {
   return form;
 }
 
-// A SteppedTexel is one texel through the steps, each with its domain rule, in the models' own parameters.
-struct SteppedTexel {
-  double alpha = 0.0;
-  std::array<double, 3> specular{};
-};
-SteppedTexel step_by_step(const std::vector<Fit>& steps, double alpha, std::array<double, 3> specular) {
+// Converts a texel by the steps, each with its domain rule, in the models' own parameters. Returns alpha and
+// replaces `specular`.
+double step_by_step(const std::vector<Fit>& steps, double alpha, std::array<double, 3>& specular) {
   double own = from_alpha(steps.front().source.roughness, alpha);
   for (const Fit& step : steps) own = evaluate_texel(step, own, std::array(specular), specular);
-  return {to_alpha(steps.back().target.roughness, own), specular};
+  return to_alpha(steps.back().target.roughness, own);
 }
 
 }  // namespace
@@ -246,12 +243,12 @@ ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& 
       const double alpha = at(chain.domain.alpha, i, kCoarse);
       const double top = chain.domain.specular.max * j / kCoarse;
       for (int k = 0; k <= kCoarse; ++k) {
-        const std::array<double, 3> color = {top, top * k / kCoarse, 0.0};
-        const SteppedTexel stepped = step_by_step(steps, alpha, color),
-                           one = step_by_step({chain}, alpha, color);
-        difference.alpha = std::max(difference.alpha, std::fabs(one.alpha - stepped.alpha));
-        for (std::size_t c = 0; c < color.size(); ++c) {
-          const double off = std::fabs(one.specular[c] - stepped.specular[c]);
+        std::array<double, 3> stepped = {top, top * k / kCoarse, 0.0}, one = stepped;
+        const double stepped_alpha = step_by_step(steps, alpha, stepped),
+                     one_alpha = step_by_step({chain}, alpha, one);
+        difference.alpha = std::max(difference.alpha, std::fabs(one_alpha - stepped_alpha));
+        for (std::size_t c = 0; c < one.size(); ++c) {
+          const double off = std::fabs(one[c] - stepped[c]);
           difference.color_specular = std::max(difference.color_specular, off);
           if (c == 0) difference.grey_specular = std::max(difference.grey_specular, off);
         }

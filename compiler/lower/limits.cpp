@@ -1,28 +1,19 @@
 #include "lower/limits.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/number_text.hpp"
 
 namespace remap {
 namespace {
 
-struct Count {
-  std::size_t found, most;
-  const char* what;
-};
-
-// Returns the first count beyond its limit.
-template <std::size_t N>
-std::string excess(const std::array<Count, N>& counts) {
-  for (const Count& count : counts)
-    if (count.found > count.most)
-      return "has " + std::to_string(count.found) + " " + count.what + "; at most " +
-             std::to_string(count.most) + " are possible";
-  return "";
+// Returns a complaint about a count beyond its limit, otherwise an empty text.
+std::string excess(std::size_t found, std::size_t most, const std::string& what) {
+  if (found <= most) return "";
+  return "has " + std::to_string(found) + " " + what + "; at most " + std::to_string(most) + " are possible";
 }
 
+// Returns the first complaint.
 std::string first_of(const std::string& a, const std::string& b) { return a.empty() ? b : a; }
 
 std::size_t longest(const std::vector<std::vector<double>>& rows) {
@@ -31,29 +22,22 @@ std::size_t longest(const std::vector<std::vector<double>>& rows) {
   return length;
 }
 
-struct Oversize {
-  std::string operator()(const Parametric& form) const {
-    return excess(
-        std::array{Count{form.alpha.size(), kMostSpecularPowers, "powers of specular in its roughness"},
-                   Count{longest(form.alpha), kMostAlphaPowers, "powers of alpha in its roughness"},
-                   Count{form.specular.size(), kMostTerms, "terms of specular"}});
-  }
-  std::string operator()(const Svr& svr) const {
-    const std::size_t found = std::max(svr.alpha.count(), svr.specular.count());
-    return excess(std::array{Count{found, kMostVectors, "support vectors"}});
-  }
-  std::string operator()(const Mlp& mlp) const {
-    return first_of(oversize(mlp.alpha), oversize(mlp.specular));
-  }
-  std::string operator()(const CompactForm& form) const {
-    std::size_t terms = 0;
-    for (const FactorTerms* factor : {&form.alpha, &form.specular})
-      for (const std::vector<float>& row : *factor) terms = std::max(terms, row.size());
-    return excess(
-        std::array{Count{std::max(form.alpha.size(), form.specular.size()), kMostPowersOfT, "powers of t"},
-                   Count{terms, kMostPowersOfAlpha, "powers of alpha"}});
-  }
-};
+std::string excess_of(const Parametric& form) {
+  return first_of(excess(form.alpha.size(), kMostSpecularPowers, "powers of specular in its roughness"),
+                  first_of(excess(longest(form.alpha), kMostAlphaPowers, "powers of alpha in its roughness"),
+                           excess(form.specular.size(), kMostTerms, "terms of specular")));
+}
+std::string excess_of(const Svr& svr) {
+  return excess(std::max(svr.alpha.count(), svr.specular.count()), kMostVectors, "support vectors");
+}
+std::string excess_of(const Mlp& mlp) { return first_of(oversize(mlp.alpha), oversize(mlp.specular)); }
+std::string excess_of(const CompactForm& form) {
+  std::size_t terms = 0;
+  for (const FactorTerms* factor : {&form.alpha, &form.specular})
+    for (const std::vector<float>& row : *factor) terms = std::max(terms, row.size());
+  return first_of(excess(std::max(form.alpha.size(), form.specular.size()), kMostPowersOfT, "powers of t"),
+                  excess(terms, kMostPowersOfAlpha, "powers of alpha"));
+}
 
 std::string oversize(const Domain& domain) {
   const double largest = std::max(domain.alpha.max, domain.specular.max);
@@ -67,12 +51,13 @@ std::string oversize(const Domain& domain) {
 std::string oversize(const Network& network) {
   std::size_t numbers = 2 * (network.inputs.size() + network.outputs.size());
   for (const Layer& layer : network.layers) numbers += layer.weights.size() + layer.biases.size();
-  return excess(std::array{Count{network.layers.size(), kMostLayers, "layers"},
-                           Count{numbers, kMostNetworkNumbers, "numbers in a network"}});
+  return first_of(excess(network.layers.size(), kMostLayers, "layers"),
+                  excess(numbers, kMostNetworkNumbers, "numbers in a network"));
 }
 
 std::string oversize(const Fit& fit) {
-  return first_of(oversize(fit.domain), std::visit(Oversize{}, fit.mapping));
+  return first_of(oversize(fit.domain),
+                  std::visit([](const auto& kind) { return excess_of(kind); }, fit.mapping));
 }
 
 }  // namespace remap

@@ -73,7 +73,7 @@ double largest(const std::vector<FormSample>& samples, const std::optional<doubl
 
 }  // namespace
 
-Lowered lower(const Fit& fit, const LoweringOptions& options) {
+Lowered lower(const Fit& fit, double tolerance) {
   if (const auto* form = std::get_if<CompactForm>(&fit.mapping)) {
     const Distance rounding = rounding_of(*form, fit.domain);
     return {*form, rounding.alpha, rounding.specular};
@@ -85,7 +85,7 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
                     "begin above specular 0");
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
-  const double alpha_within = options.alpha_tolerance, specular_within = options.specular_tolerance * unit;
+  const double alpha_within = tolerance, specular_within = tolerance * unit;
   Lowered best;
   double nearest = INFINITY, proven = INFINITY;  // both are relative to the tolerances
   for (const FormShape& shape : lowering_shapes(fit.mapping)) {
@@ -111,7 +111,7 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
   throw Error(ErrorKind::kNumeric, fit.id + ": no form of up to " + std::to_string(kMostLoweredPowers) +
                                        " x " + std::to_string(kMostLoweredTerms) +
                                        " terms is proven within " + two_figures(kLoosest * alpha_within) +
-                                       " in alpha and " + two_figures(kLoosest * options.specular_tolerance) +
+                                       " in alpha and " + two_figures(kLoosest * tolerance) +
                                        " of the largest specular");
 }
 

@@ -5,11 +5,9 @@
 
 namespace remap {
 
-struct LoweringOptions {
-  // These tolerances are a quarter of an 8-bit step, which pictures do not show.
-  double alpha_tolerance = 1e-3;     // absolute, target alpha
-  double specular_tolerance = 1e-3;  // relative to the largest target specular over the domain
-};
+// This tolerance is a quarter of an 8-bit step, which pictures do not show. It is absolute for target alpha,
+// and relative to the largest target specular over the domain.
+inline constexpr double kLoweringTolerance = 1e-3;
 
 struct Lowered {
   CompactForm form;
@@ -17,11 +15,11 @@ struct Lowered {
   double alpha_bound = 0.0, specular_bound = 0.0;
 };
 
-// Returns the form with the fewest terms that meets the tolerances, or that comes closest. A compact fit
-// stays unchanged. Throws kNumeric if no form is proven within ten times the tolerances.
-Lowered lower(const Fit& fit, const LoweringOptions& options = {});
+// Returns the form with the fewest terms that meets the tolerance, or that comes closest. A compact fit stays
+// unchanged. Throws kNumeric if no form is proven within ten times the tolerance.
+Lowered lower(const Fit& fit, double tolerance = kLoweringTolerance);
 
 // Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit stays.
-void add_converter(Fit* fit, const LoweringOptions& options = {});
+void add_converter(Fit* fit, double tolerance = kLoweringTolerance);
 
 }  // namespace remap

@@ -24,52 +24,49 @@ std::size_t count_of(const AlphaCurve& curve) {
   return count;
 }
 
-struct Name {
-  std::string operator()(const Parametric&) const { return "parametric"; }
-  std::string operator()(const Svr&) const { return "svr"; }
-  std::string operator()(const Mlp&) const { return "mlp"; }
-  std::string operator()(const CompactForm&) const { return "compact"; }
-};
+std::size_t count_of(const Parametric& form) {
+  std::size_t count = 0;
+  for (const auto& row : form.alpha) count += row.size();
+  for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
+  return count;
+}
+std::size_t count_of(const Svr& svr) { return count_of(svr.alpha) + count_of(svr.specular); }
+std::size_t count_of(const Mlp& mlp) { return count_of(mlp.alpha) + count_of(mlp.specular); }
+std::size_t count_of(const CompactForm& form) { return number_count(form); }
 
-struct AlphaDependsOnSpecular {
-  bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
-  bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
-  bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
-  bool operator()(const CompactForm& form) const { return form.alpha.size() > 1; }
-};
+const char* name_of(const Parametric&) { return "parametric"; }
+const char* name_of(const Svr&) { return "svr"; }
+const char* name_of(const Mlp&) { return "mlp"; }
+const char* name_of(const CompactForm&) { return "compact"; }
 
-struct IsProportional {
-  bool operator()(const Parametric& form) const {
-    return std::all_of(form.specular.begin(), form.specular.end(),
-                       [](const SpecularTerm& term) { return term.power == 1; });
-  }
-  bool operator()(const Svr&) const { return false; }
-  bool operator()(const Mlp&) const { return false; }
-  bool operator()(const CompactForm& form) const { return form.specular.size() == 1; }
-};
+bool alpha_needs_specular(const Parametric& form) { return form.alpha.size() > 1; }
+bool alpha_needs_specular(const Svr& svr) { return svr.alpha.inputs.size() > 1; }
+bool alpha_needs_specular(const Mlp& mlp) { return mlp.alpha.inputs.size() > 1; }
+bool alpha_needs_specular(const CompactForm& form) { return form.alpha.size() > 1; }
 
-struct NumberCount {
-  std::size_t operator()(const Parametric& form) const {
-    std::size_t count = 0;
-    for (const auto& row : form.alpha) count += row.size();
-    for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
-    return count;
-  }
-  std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
-  std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
-  std::size_t operator()(const CompactForm& form) const { return remap::number_count(form); }
-};
+bool scales_specular(const Parametric& form) {
+  return std::ranges::all_of(form.specular, [](const SpecularTerm& term) { return term.power == 1; });
+}
+bool scales_specular(const Svr&) { return false; }
+bool scales_specular(const Mlp&) { return false; }
+bool scales_specular(const CompactForm& form) { return form.specular.size() == 1; }
 
 }  // namespace
 
-std::string kind_name(const MappingKind& mapping) { return std::visit(Name{}, mapping); }
-
-bool alpha_depends_on_specular(const MappingKind& mapping) {
-  return std::visit(AlphaDependsOnSpecular{}, mapping);
+std::string kind_name(const MappingKind& mapping) {
+  return std::visit([](const auto& kind) { return name_of(kind); }, mapping);
 }
 
-bool is_proportional(const MappingKind& mapping) { return std::visit(IsProportional{}, mapping); }
+bool alpha_depends_on_specular(const MappingKind& mapping) {
+  return std::visit([](const auto& kind) { return alpha_needs_specular(kind); }, mapping);
+}
 
-std::size_t number_count(const MappingKind& mapping) { return std::visit(NumberCount{}, mapping); }
+bool is_proportional(const MappingKind& mapping) {
+  return std::visit([](const auto& kind) { return scales_specular(kind); }, mapping);
+}
+
+std::size_t number_count(const MappingKind& mapping) {
+  return std::visit([](const auto& kind) { return count_of(kind); }, mapping);
+}
 
 }  // namespace remap

@@ -19,38 +19,31 @@ double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
 using TexelTaylor = Taylor<2, 7>;  // variable 0 is alpha, variable 1 specular
 using TexelFunction = std::function<TexelTaylor(const TexelTaylor& alpha, const TexelTaylor& specular)>;
 
+// A Box is a part of the domain, with the result of an enclosure over it.
 struct Box {
   Range alpha, specular;
   int alpha_halvings = 0, specular_halvings = 0;
+  double bound = INFINITY;      // infinite also if the enclosure failed
+  double at_least = -INFINITY;  // no bound can be lower
+  bool halve_alpha = true;      // the direction in which to halve the box
+  bool operator<(const Box& other) const { return bound < other.bound; }
 };
 
 double centre(const Range& range) { return 0.5 * (range.min + range.max); }
 double half_width(const Range& range) { return 0.5 * (range.max - range.min); }
 
-// A Verdict is the result of an enclosure over a box.
-struct Verdict {
-  double bound = 0.0;           // infinite if the enclosure failed
-  double at_least = -INFINITY;  // no bound can be lower
-  bool halve_alpha = true;      // the direction in which to halve the box
-};
-
 // Replaces NaN by infinity, because comparisons would lose NaN.
 double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
-Verdict verdict(const TexelTaylor& error, const Box& box) {
-  const double bound = claimed(error.bound()), at_least = std::fabs(error.constant()) - error.rest();
+void judge(Box& box, const TexelTaylor& error) {
+  box.bound = claimed(error.bound());
+  box.at_least = std::fabs(error.constant()) - error.rest();
   // If the remainder dominates the polynomial, the extents are meaningless. The box is then halved along
   // alpha and specular in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
-  const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * error.rest();
-  return {bound, at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
+  const bool tells = std::isfinite(box.bound) && std::max(alpha, specular) > 0.01 * error.rest();
+  box.halve_alpha = tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings;
 }
-
-struct JudgedBox {
-  Verdict verdict;
-  Box box;
-  bool operator<(const JudgedBox& other) const { return verdict.bound < other.verdict.bound; }
-};
 
 // Returns the initial boxes.
 std::vector<Box> first_boxes(const Domain& domain) {
@@ -65,15 +58,13 @@ std::vector<Box> first_boxes(const Domain& domain) {
   for (int i = 0; i < kAlphaBoxes; ++i)
     for (int j = 0; j < kSpecularBoxes; ++j)
       boxes.push_back({{part(alpha, i, kAlphaBoxes), part(alpha, i + 1, kAlphaBoxes)},
-                       {part(specular, j, kSpecularBoxes), part(specular, j + 1, kSpecularBoxes)},
-                       0,
-                       0});
+                       {part(specular, j, kSpecularBoxes), part(specular, j + 1, kSpecularBoxes)}});
   return boxes;
 }
 
-std::array<Box, 2> halves(const Box& box, bool halve_alpha) {
+std::array<Box, 2> halves(const Box& box) {
   Box low = box, high = box;
-  if (halve_alpha) {
+  if (box.halve_alpha) {
     low.alpha.max = high.alpha.min = centre(box.alpha);
     low.alpha_halvings = ++high.alpha_halvings;
   } else {
@@ -86,24 +77,24 @@ std::array<Box, 2> halves(const Box& box, bool halve_alpha) {
 // Halves the worst box until the worst bound is at most `target`, the budget is spent, or it is clear that
 // the target cannot be reached.
 double proven_bound(const TexelFunction& error, const Domain& domain, double target, std::size_t budget) {
-  std::priority_queue<JudgedBox> queue;
+  std::priority_queue<Box> queue;
   double at_least = -INFINITY;
-  const auto look_at = [&](const Box& box) {
+  const auto look_at = [&](Box box) {
     const TexelTaylor alpha = TexelTaylor::variable(0, centre(box.alpha), half_width(box.alpha));
     const TexelTaylor specular = TexelTaylor::variable(1, centre(box.specular), half_width(box.specular));
-    const Verdict found = verdict(error(alpha, specular), box);
-    at_least = std::max(at_least, found.at_least);
-    queue.push({found, box});
+    judge(box, error(alpha, specular));
+    at_least = std::max(at_least, box.at_least);
+    queue.push(box);
   };
   const std::vector<Box> boxes = first_boxes(domain);
   for (const Box& box : boxes) look_at(box);
   for (std::size_t looked = boxes.size();
-       queue.top().verdict.bound > target && !(at_least > target) && looked < budget; looked += 2) {
-    const JudgedBox worst = queue.top();
+       queue.top().bound > target && !(at_least > target) && looked < budget; looked += 2) {
+    const std::array<Box, 2> parts = halves(queue.top());
     queue.pop();
-    for (const Box& half : halves(worst.box, worst.verdict.halve_alpha)) look_at(half);
+    for (const Box& part : parts) look_at(part);
   }
-  return queue.top().verdict.bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
+  return queue.top().bound * (1.0 + 1e-9);  // covers rounding in the additions of bounds
 }
 
 // Returns the sum of the magnitudes of a factor's terms.

@@ -21,12 +21,12 @@ Json to_json(const MetallicWorkflow& workflow) {
 }
 
 Json to_json(const WorkflowFormula& formula) {
-  if (const auto* learned = std::get_if<LearnedNetwork>(&formula))
-    return {{"kind", "mlp"}, {"network", network_json(learned->network)}};
+  if (const auto* network = std::get_if<Network>(&formula))
+    return {{"kind", "mlp"}, {"network", network_json(*network)}};
   Json json = {{"kind", kWorkflowKind}, {"formula", std::string(formula_name(formula))}};
   if (const auto* projection = std::get_if<Projection>(&formula)) json["prior"] = projection->prior;
-  if (const auto* equation = std::get_if<Equation3>(&formula))
-    json["mean"] = std::string(name_of(kMetallicMeans, equation->mean));
+  if (const auto* closed = std::get_if<ClosedFormula>(&formula))
+    if (const std::string_view mean = name_of(kMetallicMeans, *closed); !mean.empty()) json["mean"] = mean;
   return json;
 }
 
@@ -58,14 +58,14 @@ RoughnessEncoding read_width(const Field& side) {
 }
 
 WorkflowFormula read_formula(const Field& mapping) {
-  if (mapping["kind"].text() == "mlp") return LearnedNetwork{read_network(mapping["network"], 4)};
+  if (mapping["kind"].text() == "mlp") return read_network(mapping["network"], 4);
   mapping["kind"].require(mapping["kind"].text() == kWorkflowKind, "workflow or mlp");
   const std::string name = mapping["formula"].text();
-  if (name == "equation-2") return Equation2{};
+  if (name == "equation-2") return ClosedFormula::kEquation2;
   if (name == "projection") return Projection{mapping["prior"].number()};
-  if (name == "khronos") return KhronosSolver{};
+  if (name == "khronos") return ClosedFormula::kKhronos;
   mapping["formula"].require(name == "equation-3", "equation-2, projection, equation-3 or khronos");
-  return Equation3{mapping["mean"].named(kMetallicMeans, "plain or albedo")};
+  return mapping["mean"].named(kMetallicMeans, "plain or albedo");
 }
 
 }  // namespace

@@ -11,23 +11,21 @@
 #include "core/number_text.hpp"
 #include "formula/text_template.hpp"
 #include "remap/error.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 namespace {
 
-struct BuiltIn {
-  std::string_view name;
-  std::size_t terms;
-};
-constexpr std::array<BuiltIn, 9> kBuiltIns = {{{"min", 2},
-                                               {"max", 2},
-                                               {"mix", 3},
-                                               {"pow", 2},
-                                               {"sqrt", 1},
-                                               {"exp", 1},
-                                               {"largest", 1},
-                                               {"channel", 2},
-                                               {"color", 1}}};
+// These are the numbers of terms of functions that every language has.
+constexpr NamedValues<std::size_t, 9> kBuiltIns = {{{2, "min"},
+                                                    {2, "max"},
+                                                    {3, "mix"},
+                                                    {2, "pow"},
+                                                    {1, "sqrt"},
+                                                    {1, "exp"},
+                                                    {1, "largest"},
+                                                    {2, "channel"},
+                                                    {1, "color"}}};
 
 // A SourceLine is a statement of a file, with the comment above it.
 struct SourceLine {
@@ -184,8 +182,8 @@ class ExpressionParser {
 
   void require_terms(const std::string& name, std::size_t count) const {
     std::size_t expected = 0;
-    if (const auto known = std::ranges::find(kBuiltIns, name, &BuiltIn::name); known != kBuiltIns.end())
-      expected = known->terms;
+    if (const std::optional<std::size_t> known = value_named(kBuiltIns, name))
+      expected = *known;
     else if (const auto own = std::ranges::find(functions_, name, &FormulaFunction::name);
              own != functions_.end())
       expected = own->parameters.size();
@@ -322,7 +320,7 @@ const MaterialInput* MaterialModel::find(std::string_view name) const {
 
 std::vector<std::string> Translation::ignored() const {
   std::vector<std::string> used, unused;
-  for (const TranslationLine& line : lines) collect_names(line.statement.value, used);
+  for (const Statement& line : lines) collect_names(line.value, used);
   for (const MaterialInput& input : from->inputs)
     if (std::ranges::find(used, "source." + input.name) == used.end()) unused.push_back(input.name);
   return unused;
@@ -390,7 +388,7 @@ Translation parse_translation(std::string_view text, const std::string& name, co
         throw input_error("'" + left + "' is the name of an input (choose another)");
       }
       if (!names.emplace(left, type).second) throw input_error("'" + left + "' has a value already");
-      translation.lines.push_back({line.comment, {left, type, std::move(value)}});
+      translation.lines.push_back({left, type, std::move(value), line.comment});
     });
   return translation;
 }

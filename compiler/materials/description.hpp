@@ -36,19 +36,13 @@ struct MaterialModel {
   const MaterialInput* find(std::string_view name) const;
 };
 
-// A TranslationLine is a statement with the comment above it. The name of a source's input is `source.x`, and
-// the name of a target's input is `target.x`.
-struct TranslationLine {
-  std::string comment;
-  Statement statement;
-};
-
 struct Translation {
   const MaterialModel* from = nullptr;
   const MaterialModel* to = nullptr;
   std::string variant;  // such as `_specular`, for a second translation between the same models
   std::string comment;  // the comment at the top of the file
-  std::vector<TranslationLine> lines;
+  // The name of a source's input is `source.x`, and the name of a target's input is `target.x`.
+  std::vector<Statement> lines;
 
   std::string id() const { return from->id + "_to_" + to->id + variant; }
   // Returns the inputs of the source that no statement uses.

@@ -22,8 +22,8 @@ GraphWriter graph_of(const Translation& translation, const MaterialLibrary& libr
   std::map<std::string, ValueType> inputs;
   for (const MaterialInput& input : translation.from->inputs) inputs["source." + input.name] = input.type;
   GraphWriter writer(std::move(inputs), library.functions, &definitions);
-  for (const TranslationLine& line : translation.lines) {
-    Statement statement = line.statement;
+  for (const Statement& line : translation.lines) {
+    Statement statement = line;
     if (statement.name.starts_with("target.")) statement.name = statement.name.substr(7) + "_out";
     writer.write(statement);
   }
@@ -38,10 +38,10 @@ std::string definition_of(const Translation& translation, const MaterialLibrary&
   for (const MaterialInput& input : translation.from->inputs)
     text += "    <input name=\"" + input.name + "\" type=\"" + material_x_type(input.type) + "\" value=\"" +
             graph_value(input) + "\" />\n";
-  for (const TranslationLine& line : translation.lines)
-    if (line.statement.name.starts_with("target."))
-      text += "    <output name=\"" + line.statement.name.substr(7) + "_out\" type=\"" +
-              material_x_type(line.statement.type) + "\" />\n";
+  for (const Statement& line : translation.lines)
+    if (line.name.starts_with("target."))
+      text += "    <output name=\"" + line.name.substr(7) + "_out\" type=\"" + material_x_type(line.type) +
+              "\" />\n";
   return text + "  </nodedef>\n  <nodegraph name=\"NG_" + name + "\" nodedef=\"ND_" + name + "\">\n" +
          graph.nodes() + graph.outputs() + "  </nodegraph>\n";
 }

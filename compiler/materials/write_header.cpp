@@ -72,11 +72,11 @@ std::string header_translation_code(const Translation& translation) {
   std::string text = "\n" + commented(translation.comment, "", "//") + "inline " + to + " " +
                      translation.id() + "(const " + type_name(translation.from->id) + "& source) {\n  " + to +
                      " target;\n";
-  for (const TranslationLine& line : translation.lines) {
-    const bool is_output = line.statement.name.starts_with("target.");
-    const std::string type = line.statement.type == ValueType::kColor ? "const Color " : "const float ";
-    text += commented(line.comment, "  ", "//") + "  " + (is_output ? "" : type) + line.statement.name +
-            " = " + header_code_of(line.statement.value) + ";\n";
+  for (const Statement& line : translation.lines) {
+    const bool is_output = line.name.starts_with("target.");
+    const std::string type = line.type == ValueType::kColor ? "const Color " : "const float ";
+    text += commented(line.comment, "  ", "//") + "  " + (is_output ? "" : type) + line.name + " = " +
+            header_code_of(line.value) + ";\n";
   }
   return text + "  return target;\n}\n";
 }

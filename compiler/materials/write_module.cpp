@@ -55,11 +55,10 @@ std::string module_translation_code(const Translation& translation) {
   std::string text = "\n\ndef " + translation.id() + "(material):\n    \"\"\"" + summary +
                      "\"\"\"\n    source, target = _read(\"" + translation.from->id +
                      "\", material), SimpleNamespace()\n    with np.errstate(all=\"ignore\"):\n";
-  for (const TranslationLine& line : translation.lines) {
-    const bool widens =
-        line.statement.type == ValueType::kColor && line.statement.name.starts_with("target.");
-    const std::string code = module_code_of(line.statement.value);
-    text += commented(line.comment, "        ", "#") + "        " + line.statement.name + " = " +
+  for (const Statement& line : translation.lines) {
+    const bool widens = line.type == ValueType::kColor && line.name.starts_with("target.");
+    const std::string code = module_code_of(line.value);
+    text += commented(line.comment, "        ", "#") + "        " + line.name + " = " +
             (widens ? "_color(" + code + ")" : code) + "\n";
   }
   return text + "    return _result(\"" + translation.to->id + "\", target)\n";

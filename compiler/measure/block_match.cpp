@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-TableRow flat_row(const SamplePoint& sample, const ProbedModel& target) {
+TableRow flat_row(const MappedTexel& sample, const ProbedModel& target) {
   const double alpha = std::clamp(sample.alpha, target.model.alpha.min, target.model.alpha.max);
   return {sample.alpha, sample.specular, alpha, target.linear_range().min, 0.0, RowStatus::kFlat, 0};
 }
@@ -18,16 +18,17 @@ TableRow flat_row(const SamplePoint& sample, const ProbedModel& target) {
 // A WidthMatch matches width and specular at one source width, from pictures without diffuse.
 class WidthMatch {
  public:
-  WidthMatch(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
+  WidthMatch(const SweepSetup& setup, const SampleBlock& block)
+      : setup_(setup), alpha_(setup.options.samples[block.front()].alpha) {
     const SpecularResponse& source = setup.source.response;
     const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
     if (setup.target.bank && (source.proportional() || (source.affine() && uniform)))
       share_products();
     else if (!source.affine() || setup.source.model.is_external)
-      interpolate(block.samples.size());
+      interpolate(block.size());
   }
 
-  TableRow at(const SamplePoint& sample) {
+  TableRow at(const MappedTexel& sample) {
     if (sample.specular == 0.0 || is_black_) return flat_row(sample, setup_.target);
     Match match;
     if (shared_) {
@@ -41,7 +42,8 @@ class WidthMatch {
       source.weights = setup_.picture_taker.weights(source.picture);
       match = match_by_itself(std::move(source));
     }
-    return {sample.alpha, sample.specular, match.alpha, match.specular, match.picture_error, match.status, 0};
+    const RoleValues& point = match.point();
+    return {sample.alpha, sample.specular, point.alpha, point.specular, match.picture_error, match.status, 0};
   }
 
  private:
@@ -77,9 +79,7 @@ class WidthMatch {
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
           .match({1.0}, &minima_);
     const std::vector<RoleValues> starts = setup_.grid->minima(source.picture, source.weights.squared);
-    const JointMatch match =
-        JointMatcher(*setup_.target.pictures, {std::move(source)}, {false, false}).match(starts);
-    return {match.point().alpha, match.point().specular, match.error, match.picture_error, match.status};
+    return JointMatcher(*setup_.target.pictures, {std::move(source)}, DiffuseSearch::kNone).match(starts);
   }
 
   const SweepSetup& setup_;
@@ -146,16 +146,17 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
     return;
   }
   source.weights = setup.picture_taker.weights(source.picture);
+  const bool is_black = row->diffuse1 == 0.0 && setup.source.model.has(ParameterRole::kDiffuse);
   const JointMatcher matcher(*setup.target.pictures, {std::move(source)},
-                             {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
+                             is_black ? DiffuseSearch::kOfBlackDiffuse : DiffuseSearch::kFree);
   const RoleValues apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
     const std::vector<std::vector<float>> pictures = {setup.picture_taker.take(setup.target, apart)};
     row->error = matcher.picture_error(pictures);
     return;
   }
-  const JointMatch match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
-                                         matcher.other_guesses());
+  const Match match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
+                                    matcher.other_guesses());
   row->alpha2 = match.point().alpha;
   row->specular2 = match.point().specular;
   row->diffuse2 = match.point().diffuse;
@@ -166,8 +167,8 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
 // Returns rows before a one-stage match, without target values.
 std::vector<TableRow> unmatched_rows(const SweepSetup& setup, const SampleBlock& block) {
   std::vector<TableRow> rows;
-  for (const std::size_t index : block.samples) {
-    const SamplePoint& sample = setup.options.samples[index];
+  for (const std::size_t index : block) {
+    const MappedTexel& sample = setup.options.samples[index];
     rows.push_back(flat_row(sample, setup.target));
     if (sample.specular != 0.0) rows.back().status = RowStatus::kOk;
   }
@@ -184,7 +185,7 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
     rows = unmatched_rows(setup, block);
   } else {
     WidthMatch match(setup, block);
-    for (const std::size_t index : block.samples) rows.push_back(match.at(setup.options.samples[index]));
+    for (const std::size_t index : block) rows.push_back(match.at(setup.options.samples[index]));
     if (!has_diffuse(setup.options) && setup.target.bank) add_joints(setup, &match, &rows);
   }
   for (TableRow& row : rows) {
@@ -192,7 +193,7 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
       match_diffuse_separately(setup, &row);
       match_whole(setup, &row);
     }
-    const bool clamped = !setup.source_widths.effective.contains(row.alpha1);
+    const bool clamped = !setup.source_widths.contains(row.alpha1);
     if (clamped && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }
   return rows;

@@ -13,10 +13,7 @@
 namespace remap {
 
 // A SampleBlock holds samples of one source width, as indices into SweepOptions::samples.
-struct SampleBlock {
-  double alpha;
-  std::vector<std::size_t> samples;
-};
+using SampleBlock = std::vector<std::size_t>;
 
 // Samples are rounded to numbers that a user can type.
 inline constexpr int kSampleDigits = 9;
@@ -27,13 +24,14 @@ struct SweepSetup {
   const PictureTaker& picture_taker;
   ProbedModel source;
   MatchTarget target;
-  double irradiance_scale = 1.0;     // multiplies the source's pictures
-  DiffuseMatch diffuse;              // measured after that multiplication
-  std::unique_ptr<TargetGrid> grid;  // set for a target without a family
-  EffectiveWidths source_widths, target_widths;
+  double irradiance_scale = 1.0;       // multiplies the source's pictures
+  DiffuseMatch diffuse;                // measured after that multiplication
+  std::unique_ptr<TargetGrid> grid;    // set for a target without a family
+  Range source_widths, target_widths;  // widths that change pictures (probe_widths)
+  Range wanted_widths;                 // widths to search, even if they do not change the target's pictures
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
-  Limits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
+  Limits limits() const { return {target_widths.max, target.linear_range().max}; }
 };
 
 // Returns true if rows have diffuse: the source has some, or the target's is matched together with the rest.

@@ -21,30 +21,21 @@ constexpr double kRivalTolerance = 1e-7;
 constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
 constexpr double kBoundTolerance = 1e-6;  // fraction of the range
 
-// A Square is a small square matrix.
-class Square {
- public:
-  explicit Square(std::size_t side) : side_(side), values_(side * side) {}
-  std::size_t side() const { return side_; }
-  double& operator()(std::size_t row, std::size_t column) { return values_[row * side_ + column]; }
-  double operator()(std::size_t row, std::size_t column) const { return values_[row * side_ + column]; }
+using Matrix = std::vector<std::vector<double>>;
 
- private:
-  std::size_t side_;
-  std::vector<double> values_;
-};
+Matrix square(std::size_t side) { return Matrix(side, std::vector<double>(side)); }
 
 // Returns upper R with R^T R = gram; rows of linearly dependent columns are 0.
-Square cholesky(const Square& gram) {
-  Square r(gram.side());
-  for (std::size_t i = 0; i < gram.side(); ++i) {
-    for (std::size_t j = i; j < gram.side(); ++j) {
-      double left = gram(i, j);
-      for (std::size_t k = 0; k < i; ++k) left -= r(k, i) * r(k, j);
+Matrix cholesky(const Matrix& gram) {
+  Matrix r = square(gram.size());
+  for (std::size_t i = 0; i < gram.size(); ++i) {
+    for (std::size_t j = i; j < gram.size(); ++j) {
+      double left = gram[i][j];
+      for (std::size_t k = 0; k < i; ++k) left -= r[k][i] * r[k][j];
       if (i == j)
-        r(i, i) = left > 1e-14 * gram(i, i) ? std::sqrt(left) : 0.0;
+        r[i][i] = left > 1e-14 * gram[i][i] ? std::sqrt(left) : 0.0;
       else
-        r(i, j) = r(i, i) > 0.0 ? left / r(i, i) : 0.0;
+        r[i][j] = r[i][i] > 0.0 ? left / r[i][i] : 0.0;
     }
   }
   return r;
@@ -92,19 +83,19 @@ double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
 class JointMatcher::PictureCost final : public ceres::CostFunction {
  public:
   PictureCost(const JointMatcher& matcher, const RoleValues& guess)
-      : matcher_(matcher), guess_(guess), count_(matcher.unknowns_.size()), last_triangle_(count_ + 1) {
+      : matcher_(matcher), guess_(guess), count_(matcher.unknowns_.size()) {
     set_num_residuals(static_cast<int>(count_ + 1));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(count_));
   }
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
-    const Square& r = triangle(values[0]);
+    const Matrix& r = triangle(values[0]);
     for (std::size_t row = 0; row <= count_; ++row) {
-      residuals[row] = r(row, count_);
+      residuals[row] = r[row][count_];
       if (!std::isfinite(residuals[row])) return false;
       for (std::size_t column = 0; jacobians != nullptr && jacobians[0] != nullptr && column < count_;
            ++column)
-        jacobians[0][row * count_ + column] = r(row, column);
+        jacobians[0][row * count_ + column] = r[row][column];
     }
     return true;
   }
@@ -112,7 +103,7 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
  private:
   // Ceres evaluates the residuals when it tries a step, and the Jacobian at the same point when it accepts
   // it.
-  const Square& triangle(const double* values) const {
+  const Matrix& triangle(const double* values) const {
     const bool known = !last_values_.empty() && std::equal(last_values_.begin(), last_values_.end(), values);
     if (!known) last_triangle_ = cholesky(gram(values));
     last_values_.assign(values, values + count_);
@@ -121,8 +112,8 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
 
   // Returns inner products of the tangents and, in the last row and column, of picture - source. They are
   // summed over all channels and divided by the power of the source.
-  Square gram(const double* values) const {
-    Square products(count_ + 1);
+  Matrix gram(const double* values) const {
+    Matrix products = square(count_ + 1);
     const std::vector<RoleValues> points = matcher_.points_of(values, guess_);
     std::vector<PictureTangents> pictures = matcher_.target_.at(points, matcher_.wanted_);
     for (std::size_t c = 0; c < points.size(); ++c) {
@@ -137,7 +128,7 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
       for (std::size_t i = 0; i <= count_; ++i)
         for (std::size_t j = i; j <= count_; ++j)
           if (columns[i] != nullptr && columns[j] != nullptr)
-            products(i, j) += weighted_product(channel.weights.squared.data(), columns[i], columns[j],
+            products[i][j] += weighted_product(channel.weights.squared.data(), columns[i], columns[j],
                                                channel.picture.size()) /
                               matcher_.power_;
     }
@@ -148,12 +139,12 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
   const RoleValues& guess_;
   std::size_t count_;
   mutable std::vector<double> last_values_;
-  mutable Square last_triangle_;
+  mutable Matrix last_triangle_;
 };
 
 JointMatcher::JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels,
-                           const JointOptions& options)
-    : target_(target), channels_(std::move(channels)), options_(options), unknowns_(unknowns()) {
+                           DiffuseSearch diffuse)
+    : target_(target), channels_(std::move(channels)), diffuse_(diffuse), unknowns_(unknowns()) {
   wanted_.resize(target.coordinates().size());
   for (const Unknown& unknown : unknowns_) wanted_[unknown.coordinate] = true;
   for (const JointChannel& channel : channels_) power_ += power_of(channel.weights, channel.picture);
@@ -163,7 +154,7 @@ std::vector<JointMatcher::Unknown> JointMatcher::unknowns() const {
   std::vector<Unknown> all;
   for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
     const Coordinate& coordinate = target_.coordinates()[i];
-    const bool kept = i == kDiffuseCoordinate && !options_.free_diffuse;
+    const bool kept = i == kDiffuseCoordinate && diffuse_ == DiffuseSearch::kNone;
     if (kept || !(coordinate.range.max > coordinate.range.min)) continue;
     for (std::size_t c = 0; c < (coordinate.shared ? 1 : channels_.size()); ++c)
       all.push_back({i, c, coordinate.shared});
@@ -207,7 +198,7 @@ double JointMatcher::picture_error(std::span<const std::vector<float>> pictures)
   return std::sqrt(loss / power);
 }
 
-JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const {
+Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
   std::vector<double> values;
   ceres::Problem problem;
   for (const Unknown& unknown : unknowns_) {
@@ -236,11 +227,11 @@ JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const
     problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), fixed));
     summary = solve(&problem, tolerance);
   }
-  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost), 0.0,
-          summary.termination_type == ceres::CONVERGENCE, RowStatus::kOk};
+  return {points_of(values.data(), guess), std::sqrt(2.0 * summary.final_cost), 0.0, RowStatus::kOk,
+          summary.termination_type == ceres::CONVERGENCE};
 }
 
-bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
+bool JointMatcher::apart(const Match& a, const Match& b) const {
   return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
@@ -249,18 +240,19 @@ bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
   });
 }
 
-bool JointMatcher::at_bound(const JointMatch& match) const {
+bool JointMatcher::at_bound(const Match& match) const {
   return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
     const double value = target_.value(match.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
-    const bool may_be_least = unknown.coordinate == kDiffuseCoordinate && !options_.source_has_diffuse;
+    const bool may_be_least =
+        unknown.coordinate == kDiffuseCoordinate && diffuse_ == DiffuseSearch::kOfBlackDiffuse;
     return lies_at(value, range.max, range) || (!may_be_least && lies_at(value, range.min, range));
   });
 }
 
-RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
+RowStatus JointMatcher::judge(const Match& match, const std::vector<Match>& rivals) const {
   if (!match.converged) return RowStatus::kUnstable;
-  for (const JointMatch& rival : rivals) {
+  for (const Match& rival : rivals) {
     const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
     const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
     if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
@@ -268,11 +260,11 @@ RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMa
   return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
-JointMatch JointMatcher::match(const std::vector<RoleValues>& guesses,
-                               const std::vector<RoleValues>& rivals) const {
-  std::vector<JointMatch> found;
+Match JointMatcher::match(const std::vector<RoleValues>& guesses,
+                          const std::vector<RoleValues>& rivals) const {
+  std::vector<Match> found;
   for (const RoleValues& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
-  JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
+  Match best = *std::ranges::min_element(found, {}, &Match::error);
   for (const RoleValues& rival : rivals) found.push_back(search(rival, kRivalTolerance));
   best.status = judge(best, found);
   std::vector<std::vector<float>> pictures;

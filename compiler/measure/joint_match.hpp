@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "measure/match.hpp"
 #include "measure/target_pictures.hpp"
 #include "table/table.hpp"
 
@@ -17,9 +18,11 @@ namespace remap {
 // This is the initial guess of a one-stage match, as fractions of the ranges of alpha, specular and diffuse.
 inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
 
-struct JointOptions {
-  bool free_diffuse = true;        // false: diffuse keeps the value of the guess
-  bool source_has_diffuse = true;  // false: diffuse 0 is an answer, not a bound that was hit
+// A DiffuseSearch decides how a match treats the target's diffuse.
+enum class DiffuseSearch {
+  kNone,            // it keeps the value of the guess
+  kFree,            // it is searched
+  kOfBlackDiffuse,  // it is searched; 0 is an answer, not a bound that was hit, as the source has no diffuse
 };
 
 // A JointChannel is one color channel of the source.
@@ -29,28 +32,18 @@ struct JointChannel {
   bool is_black() const { return remap::is_black(picture); }
 };
 
-struct JointMatch {
-  std::vector<RoleValues> points;  // canonical, one for each channel
-  double error = 0.0;              // as the objective defines it: weighted relative RMS over all channels
-  double picture_error = 0.0;      // like `error`, but only over the pixels, without means
-  bool converged = false;
-  RowStatus status = RowStatus::kOk;
-
-  const RoleValues& point() const { return points.front(); }  // for a grey match
-};
-
 class JointMatcher {
  public:
   // A grey match has one channel. The channels' pictures must be as long as the target's. `target` must
   // outlive the matcher.
-  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
+  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, DiffuseSearch diffuse);
 
   // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
   // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
   // not converge. It is also kUnstable if a search from another guess or from `rivals` ends with an error
   // lower by more than 1 %, or within 1 % but with a parameter that differs by more than 10 %. Otherwise it
   // is kClamped if a parameter is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
-  JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
+  Match match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
 
   // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
   double picture_error(std::span<const std::vector<float>> pictures) const;
@@ -75,14 +68,14 @@ class JointMatcher {
 
   std::vector<Unknown> unknowns() const;
   std::vector<RoleValues> points_of(const double* values, const RoleValues& guess) const;
-  JointMatch search(const RoleValues& guess, double tolerance) const;
-  RowStatus judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const;
-  bool apart(const JointMatch& a, const JointMatch& b) const;
-  bool at_bound(const JointMatch& match) const;
+  Match search(const RoleValues& guess, double tolerance) const;
+  RowStatus judge(const Match& match, const std::vector<Match>& rivals) const;
+  bool apart(const Match& a, const Match& b) const;
+  bool at_bound(const Match& match) const;
 
   const TargetPictures& target_;
   std::vector<JointChannel> channels_;
-  JointOptions options_;
+  DiffuseSearch diffuse_;
   std::vector<Unknown> unknowns_;
   std::vector<bool> wanted_;  // coordinates that are searched
   double power_ = 0.0;

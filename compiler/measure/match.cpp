@@ -49,18 +49,14 @@ double quadratic_form(const std::vector<std::vector<double>>& matrix,
   return sum;
 }
 
-// A LossWindow holds the losses at neighbouring nodes, interpolated coefficient by coefficient.
-struct LossWindow {
-  std::array<std::vector<double>, kInterpolationNodes> losses;
-  LagrangeBasis::Values logs{};  // values of log(alpha)
-
-  std::vector<double> sum(const LagrangeBasis::Values& weights) const {
-    std::vector<double> total(losses.front().size());
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i)
-      for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
-    return total;
-  }
-};
+// Interpolates the losses at neighbouring nodes, coefficient by coefficient.
+std::vector<double> interpolated(const std::array<std::vector<double>, kInterpolationNodes>& losses,
+                                 const LagrangeBasis::Values& weights) {
+  std::vector<double> total(losses.front().size());
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
+  return total;
+}
 
 }  // namespace
 
@@ -81,27 +77,27 @@ Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, 
   }
 }
 
-const Matcher::NodeProducts& Matcher::products(std::size_t node) {
+const Matcher::Products& Matcher::products(std::size_t node) {
   const auto known = products_.find(node);
   if (known != products_.end()) return known->second;
   const std::vector<std::vector<float>>& pictures = bank_.pictures(node);
   const std::vector<Polynomial>& weights = bank_.family().weights;
-  NodeProducts p;
+  Products p;
   for (std::size_t j = 0; j < pictures.size(); ++j)
     for (std::size_t k = j; k < pictures.size(); ++k) {
       const double count = j == k ? 1.0 : 2.0;
       const Polynomial polynomial = polynomial_product(weights[j], weights[k]);
       add(count * weighted_product(weights_.squared.data(), pictures[j].data(), pictures[k].data(),
                                    weights_.squared.size()),
-          polynomial, &p.all.power);
-      add(count * part_product(weights_, pictures[j], pictures[k]), polynomial, &p.means.power);
+          polynomial, &p.power);
+      add(count * part_product(weights_, pictures[j], pictures[k]), polynomial, &p.power_of_means);
     }
   for (const auto& source : weighted_basis_) {
-    p.all.cross.emplace_back();
-    p.means.cross.emplace_back();
+    p.cross.emplace_back();
+    p.cross_of_means.emplace_back();
     for (std::size_t k = 0; k < pictures.size(); ++k) {
-      add(inner_product(source.data(), pictures[k].data(), source.size()), weights[k], &p.all.cross.back());
-      add(part_product(weights_.means, source, pictures[k]), weights[k], &p.means.cross.back());
+      add(inner_product(source.data(), pictures[k].data(), source.size()), weights[k], &p.cross.back());
+      add(part_product(weights_.means, source, pictures[k]), weights[k], &p.cross_of_means.back());
     }
   }
   return products_.emplace(node, std::move(p)).first->second;
@@ -109,12 +105,13 @@ const Matcher::NodeProducts& Matcher::products(std::size_t node) {
 
 // Returns |I - T|^2 = II - 2 IT + TT, all weighted. It omits II, which does not depend on the target, so that
 // refine() can differentiate the rest without cancellation.
-Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) {
-  Polynomial result = products.power;
-  Polynomial cross(products.cross.front().size());
+Matcher::Polynomial Matcher::loss(const Polynomial& power, const std::vector<Polynomial>& cross,
+                                  const std::vector<double>& coefficients) {
+  Polynomial result = power;
+  Polynomial sum(cross.front().size());
   for (std::size_t b = 0; b < coefficients.size(); ++b)
-    for (std::size_t i = 0; i < cross.size(); ++i) cross[i] += coefficients[b] * products.cross[b][i];
-  for (std::size_t i = 0; i < cross.size(); ++i) result[i] -= 2.0 * cross[i];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += coefficients[b] * cross[b][i];
+  for (std::size_t i = 0; i < sum.size(); ++i) result[i] -= 2.0 * sum[i];
   return result;
 }
 
@@ -123,7 +120,8 @@ PolynomialMinimum Matcher::least(const Polynomial& loss) const {
 }
 
 double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
-  return least(loss(products(node).all, coefficients)).value;
+  const Products& p = products(node);
+  return least(loss(p.power, p.cross, coefficients)).value;
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
@@ -149,17 +147,20 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   std::array<std::size_t, kInterpolationNodes> nodes{};
   std::iota(nodes.begin(), nodes.end(), first);
   bank_.prepare(nodes);
-  LossWindow window, window_of_means;
+  std::array<Polynomial, kInterpolationNodes> losses, losses_of_means;
+  LagrangeBasis::Values logs{};  // values of log(alpha)
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-    window.losses[i] = loss(products(first + i).all, coefficients);
-    window_of_means.losses[i] = loss(products(first + i).means, coefficients);
-    window.logs[i] = std::log(bank_.alpha(first + i));
+    const Products& p = products(first + i);
+    losses[i] = loss(p.power, p.cross, coefficients);
+    losses_of_means[i] = loss(p.power_of_means, p.cross_of_means, coefficients);
+    logs[i] = std::log(bank_.alpha(first + i));
   }
   // Returns the derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0
   // there, so the change of the specular does not contribute.
   const auto derivative = [&](double x) {
-    const LagrangeBasis basis(window.logs, x);
-    return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
+    const LagrangeBasis basis(logs, x);
+    return polynomial_value(interpolated(losses, basis.derivative),
+                            least(interpolated(losses, basis.value)).at);
   };
 
   const bool at_edge = node == 0 || node + 1 == bank_.size();
@@ -172,8 +173,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     x = 0.5 * (low + high);
     (derivative(x) < 0.0 ? low : high) = x;
   }
-  const LagrangeBasis::Values at = LagrangeBasis(window.logs, x).value;
-  Match match = match_at(x, window.sum(at), window_of_means.sum(at), coefficients);
+  const LagrangeBasis::Values at = LagrangeBasis(logs, x).value;
+  Match match = match_at(x, interpolated(losses, at), interpolated(losses_of_means, at), coefficients);
   if (at_edge && !bracketed && match.status == RowStatus::kOk) match.status = RowStatus::kClamped;
   return match;
 }
@@ -192,8 +193,9 @@ Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss
   const PolynomialMinimum& best = minima.front();
   const double of_means = power_of_means + polynomial_value(loss_of_means, best.at);
   const double of_pixels = std::max(0.0, power + best.value - of_means);
-  Match match{std::exp(x), family.specular(best.at), error(best),
-              std::sqrt(of_pixels / (power - power_of_means)), RowStatus::kOk};
+  Match match{{{std::exp(x), family.specular(best.at), 0.0}},
+              error(best),
+              std::sqrt(of_pixels / (power - power_of_means))};
   if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
   for (std::size_t i = 1; i < minima.size(); ++i) {
     const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);
@@ -229,7 +231,8 @@ Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::s
   for (const std::size_t node : *minima) candidates.push_back(refine(node, coefficients));
   Match match = *std::ranges::min_element(candidates, {}, &Match::error);
   for (const Match& rival : candidates) {
-    const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
+    const bool apart =
+        std::fabs(std::log(rival.point().alpha / match.point().alpha)) > 2.0 * bank_.log_step();
     if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;
   }
   return match;

@@ -13,11 +13,13 @@
 namespace remap {
 
 struct Match {
-  double alpha = 0.0;
-  double specular = 0.0;
-  double error = 0.0;          // as the objective defines it: sqrt(loss / weighted source power)
-  double picture_error = 0.0;  // like `error`, but only over the pixels, without means
+  std::vector<RoleValues> points;  // canonical, one for each channel
+  double error = 0.0;              // as the objective defines it: weighted relative RMS over all channels
+  double picture_error = 0.0;      // like `error`, but only over the pixels, without means
   RowStatus status = RowStatus::kOk;
+  bool converged = true;
+
+  const RoleValues& point() const { return points.front(); }  // for a grey match
 };
 
 // A Matcher matches source materials whose pictures share weights and are combinations of the same few
@@ -38,17 +40,15 @@ class Matcher {
   // A Polynomial is a polynomial in the coordinate of the bank's family.
   using Polynomial = std::vector<double>;
   // A Products holds weighted inner products at one bank node: of the target's picture with itself, and with
-  // each basis picture.
+  // each basis picture, over all samples and over only the means.
   struct Products {
-    Polynomial power;
-    std::vector<Polynomial> cross;
-  };
-  struct NodeProducts {
-    Products all, means;
+    Polynomial power, power_of_means;
+    std::vector<Polynomial> cross, cross_of_means;
   };
 
-  const NodeProducts& products(std::size_t node);
-  static Polynomial loss(const Products& products, const std::vector<double>& coefficients);
+  const Products& products(std::size_t node);
+  static Polynomial loss(const Polynomial& power, const std::vector<Polynomial>& cross,
+                         const std::vector<double>& coefficients);
   PolynomialMinimum least(const Polynomial& loss) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
   std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
@@ -63,7 +63,7 @@ class Matcher {
   std::vector<std::vector<float>> weighted_basis_;
   // These are Gram matrices of the basis pictures, over all samples and over only the means.
   std::vector<std::vector<double>> power_, power_of_means_;
-  std::map<std::size_t, NodeProducts> products_;
+  std::map<std::size_t, Products> products_;
 };
 
 }  // namespace remap

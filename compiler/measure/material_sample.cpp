@@ -20,13 +20,6 @@ namespace {
 constexpr int kRandomDigits = 9, kMatchDigits = 9, kMatchErrorDigits = 6;
 constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
 
-// A Varied is a source parameter that varies.
-struct Varied {
-  ParameterDescription parameter;
-  Range range;
-  bool color;
-};
-
 std::vector<std::string> columns_of(const std::string& name, bool color, char side) {
   if (!color) return {name + side};
   std::vector<std::string> columns;
@@ -58,19 +51,23 @@ void require_roleless(const ModelDescription& model, const std::vector<std::stri
                                          " and varies anyway (choose a parameter without a role)");
 }
 
-std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelDescription& source) {
+// Returns the source parameters that vary, each with the range in which it varies. If it is grey, it gets one
+// value.
+std::vector<ParameterDescription> varied_of(const MaterialSampleOptions& options,
+                                            const ModelDescription& source) {
   require_roleless(source, options.varied);
-  std::vector<Varied> all;
-  for (const ParameterDescription& parameter : source.parameters) {
+  std::vector<ParameterDescription> all;
+  for (ParameterDescription parameter : source.parameters) {
     const bool named =
         std::find(options.varied.begin(), options.varied.end(), parameter.name) != options.varied.end();
     if (parameter.role == ParameterRole::kOther && !named) continue;
-    const bool one = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
-    all.push_back({parameter, range_of(options, source, parameter), !one});
+    parameter.range = range_of(options, source, parameter);
+    parameter.grey = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
+    all.push_back(std::move(parameter));
   }
   for (const auto& given : options.ranges)
     if (std::none_of(all.begin(), all.end(),
-                     [&](const Varied& varied) { return varied.parameter.name == given.first; }))
+                     [&](const ParameterDescription& varied) { return varied.name == given.first; }))
       throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
                                          " has a range but does not vary (add --vary " + given.first + ")");
   return all;
@@ -79,12 +76,12 @@ std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelD
 // Draws the source columns of all samples. It does not use std::uniform_real_distribution, which differs
 // between standard libraries.
 std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
-                                      const std::vector<Varied>& varied) {
+                                      const std::vector<ParameterDescription>& varied) {
   std::mt19937_64 generator(options.seed);
   std::vector<std::vector<double>> samples(options.count);
   for (std::vector<double>& sample : samples)
-    for (const Varied& parameter : varied)
-      for (int c = 0; c < (parameter.color ? 3 : 1); ++c) {
+    for (const ParameterDescription& parameter : varied)
+      for (int c = 0; c < (parameter.grey ? 1 : 3); ++c) {
         const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
         const Range& range = parameter.range;
         sample.push_back(rounded(range.min + share * (range.max - range.min), kRandomDigits));
@@ -97,7 +94,7 @@ struct Matching {
   const MaterialSampleOptions& options;
   const PictureTaker& picture_taker;
   ModelDescription source;
-  std::vector<Varied> varied;
+  std::vector<ParameterDescription> varied;
   MatchTarget target;
   LightMatch light;
 
@@ -109,9 +106,9 @@ Material material_of(const Matching& matching, const std::vector<double>& sample
   for (const ParameterDescription& parameter : matching.source.parameters)
     if (parameter.role == ParameterRole::kOther) material.parameters[parameter.name] = {parameter.standard};
   auto value = sample.begin();
-  for (const Varied& varied : matching.varied) {
-    const std::ptrdiff_t count = varied.color ? 3 : 1;
-    material.parameters[varied.parameter.name].assign(value, value + count);
+  for (const ParameterDescription& varied : matching.varied) {
+    const std::ptrdiff_t count = varied.grey ? 1 : 3;
+    material.parameters[varied.name].assign(value, value + count);
     value += count;
   }
   return material;
@@ -161,7 +158,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   }
   const std::size_t channel_count = channels.size();
   const bool is_black = std::ranges::all_of(channels, &JointChannel::is_black);
-  const JointMatcher matcher(*matching.target.pictures, std::move(channels), {true, true});
+  const JointMatcher matcher(*matching.target.pictures, std::move(channels), DiffuseSearch::kFree);
   if (is_black) {
     const RoleValues least = matcher.point_of({0.0, 0.0, 0.0});
     return {sample, target_values(matching, std::vector<RoleValues>(channel_count, least)), 0.0,
@@ -171,14 +168,14 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   guesses.front().alpha = source_alpha(matching, material);
   const std::vector<RoleValues> others = matcher.other_guesses();
   guesses.insert(guesses.end(), others.begin(), others.end());
-  const JointMatch match = matcher.match(guesses);
+  const Match match = matcher.match(guesses);
   return {sample, target_values(matching, match.points), rounded(match.picture_error, kMatchErrorDigits),
           match.status, 0};
 }
 
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
                        const ModelDescription& source, const ModelDescription& target) {
-  std::vector<Varied> varied =
+  std::vector<ParameterDescription> varied =
       // This may throw, so it is computed before the aggregate is made (see make_setup in sweep.cpp).
       varied_of(options, source);
   Matching matching{options, picture_taker, source, std::move(varied), {}, {}};
@@ -197,10 +194,10 @@ Matching make_matching(const MaterialSampleOptions& options, const PictureTaker&
   return matching;
 }
 
-std::string ranges_text(const std::vector<Varied>& varied) {
+std::string ranges_text(const std::vector<ParameterDescription>& varied) {
   std::string text;
-  for (const Varied& parameter : varied)
-    text += (text.empty() ? "" : ", ") + parameter.parameter.name + " " + range_text(parameter.range);
+  for (const ParameterDescription& parameter : varied)
+    text += (text.empty() ? "" : ", ") + parameter.name + " " + range_text(parameter.range);
   return text;
 }
 
@@ -230,15 +227,15 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   ModelDescription source = matching.source;  // the varying parameters are left out
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
     return std::any_of(matching.varied.begin(), matching.varied.end(),
-                       [&](const Varied& v) { return v.parameter.name == parameter.name; });
+                       [&](const ParameterDescription& v) { return v.name == parameter.name; });
   });
   if (const std::string fixed = fixed_text(source); !fixed.empty())
     comments.emplace_back("source_fixed", fixed);
   const auto add = [](std::vector<std::string>* all, const std::vector<std::string>& more) {
     all->insert(all->end(), more.begin(), more.end());
   };
-  for (const Varied& varied : matching.varied)
-    add(&table.source_columns, columns_of(varied.parameter.name, varied.color, '1'));
+  for (const ParameterDescription& varied : matching.varied)
+    add(&table.source_columns, columns_of(varied.name, !varied.grey, '1'));
   const auto& coordinates = matching.target.pictures->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     if (const std::string name = target_name(matching, i); !name.empty())

@@ -184,12 +184,11 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
   return SpecularProbe(picture_taker, model, alphas).law();
 }
 
-EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescription& model,
-                             const Range& alphas) {
+Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas) {
   // The peak is proportional to 1 / alpha^2, so it changes by twice the step unless the renderer clamps the
   // width.
   const double step = 1.0 + std::max(kWidthPrecision, 4.0 * picture_tolerance(model));
-  if (!(alphas.max > step * step * alphas.min)) return {alphas, alphas};
+  if (!(alphas.max > step * step * alphas.min)) return alphas;
   const double full = model.parameter(ParameterRole::kSpecular).range.max;
   const auto responds = [&](double alpha, double neighbour) {
     const Radiances here = picture_taker.take(model, RoleValues{alpha, full, 0.0});
@@ -213,7 +212,7 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
     }
     return free;
   };
-  return {alphas, {end(alphas.min, alphas.max), end(alphas.max, alphas.min)}};
+  return {end(alphas.min, alphas.max), end(alphas.max, alphas.min)};
 }
 
 bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas) {

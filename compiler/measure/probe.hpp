@@ -16,18 +16,10 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
 // deviations contradict a law.
 double picture_tolerance(const ModelDescription& model);
 
-// An EffectiveWidths holds a sweep's widths, and the part in which the width changes the picture.
-struct EffectiveWidths {
-  Range asked;
-  Range effective;
-  bool whole() const { return effective.min == asked.min && effective.max == asked.max; }
-};
-
 // Finds the part of `alphas` in which the width changes the picture. Renderers may clamp smaller widths, or
 // treat them as a mirror, which shows no point light. The result is accurate to 0.2 %. Renders 4 pictures,
 // and about 25 more for each end that is clamped. Throws kInput if no width in `alphas` changes the picture.
-EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescription& model,
-                             const Range& alphas);
+Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas);
 
 // Returns true if diffuse adds the same picture, in proportion, at every width and specular.
 bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas);

@@ -54,11 +54,11 @@ void add_limits(const Limits& limits, Comments* comments) {
   comments->emplace_back(kSpecularLimitComment, number_text(rounded(*limits.specular, kLimitDigits)));
 }
 
-void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {
-  if (widths.whole()) return;
-  comments->emplace_back(role + "_effective_alpha",
-                         number_text(rounded(widths.effective.min, kWidthDigits)) + " to " +
-                             number_text(rounded(widths.effective.max, kWidthDigits)));
+void add_widths(const std::string& role, const Range& all, const Range& effective, Comments* comments) {
+  if (effective == all) return;
+  comments->emplace_back(role + "_effective_alpha", number_text(rounded(effective.min, kWidthDigits)) +
+                                                        " to " +
+                                                        number_text(rounded(effective.max, kWidthDigits)));
 }
 
 void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
@@ -84,8 +84,7 @@ void add_comparison(const Renderer& renderer, const PairOptions& options, Commen
 
 void add_light_scale(const LightMatch& match, Comments* comments) {
   comments->emplace_back(kLightScaleComment, number_text(match.scale));
-  const auto unaccepted = light_remark({match.scale, match.diffuse_error, false});
-  if (match.accepted && unaccepted && unaccepted->is_error)
+  if (match.accepted && is_wrong_light({match.scale, match.diffuse_error, false}))
     comments->emplace_back(kLightAcceptedComment, "yes");
 }
 

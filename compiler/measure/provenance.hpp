@@ -19,8 +19,8 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
 // Adds the limits of the target, which must be known.
 void add_limits(const Limits& limits, Comments* comments);
 
-// Adds the widths of one side that change its pictures, if other widths do not.
-void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
+// Adds the widths of one side that change its pictures, `effective`, if some of the widths `all` do not.
+void add_widths(const std::string& role, const Range& all, const Range& effective, Comments* comments);
 
 // Adds the noise of one side and how many pictures are averaged, if the noise was measured.
 void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,

@@ -32,16 +32,16 @@ constexpr double kLeastProbedAlpha = 0.1;
 // whose specular1 is closest to half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
 
-std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
+std::vector<SampleBlock> blocks_of(const std::vector<MappedTexel>& samples) {
   std::map<double, std::vector<std::size_t>> by_alpha;
   for (std::size_t i = 0; i < samples.size(); ++i) by_alpha[samples[i].alpha].push_back(i);
   std::vector<SampleBlock> blocks;
-  for (auto& [alpha, indices] : by_alpha) blocks.push_back({alpha, std::move(indices)});
+  for (auto& [alpha, indices] : by_alpha) blocks.push_back(std::move(indices));
   return blocks;
 }
 
-Range sampled_alphas(const std::vector<SamplePoint>& samples) {
-  const auto [low, high] = std::ranges::minmax_element(samples, {}, &SamplePoint::alpha);
+Range sampled_alphas(const std::vector<MappedTexel>& samples) {
+  const auto [low, high] = std::ranges::minmax_element(samples, {}, &MappedTexel::alpha);
   return {low->alpha, high->alpha};
 }
 
@@ -65,7 +65,7 @@ void require_options(const SweepOptions& options, const ModelDescription& source
 }
 
 void require_alphas(const SweepOptions& options, const ModelDescription& source) {
-  for (const SamplePoint& sample : options.samples)
+  for (const MappedTexel& sample : options.samples)
     if (!source.alpha.contains(sample.alpha))
       throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
                                          " is out of range (choose samples from " + range_text(source.alpha) +
@@ -74,7 +74,7 @@ void require_alphas(const SweepOptions& options, const ModelDescription& source)
 
 void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   const Range speculars = source.specular_range();
-  for (const SamplePoint& sample : options.samples)
+  for (const MappedTexel& sample : options.samples)
     if (!speculars.contains(sample.specular))
       throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
                                          " is out of range (choose samples from " + range_text(speculars) +
@@ -130,11 +130,11 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   table.has_diffuse = has_diffuse(options);
   table.comments = {{"tool", std::string("remapc ") + kVersion}};
   add_side("source", setup.source, &table.comments);
-  add_widths("source", setup.source_widths, &table.comments);
+  add_widths("source", sampled_alphas(options.samples), setup.source_widths, &table.comments);
   add_noise("source", renderer, options.source, &table.comments);
   add_side("target", setup.target, &table.comments);
   add_limits(setup.limits(), &table.comments);
-  add_widths("target", setup.target_widths, &table.comments);
+  add_widths("target", setup.wanted_widths, setup.target_widths, &table.comments);
   add_noise("target", renderer, options.target, &table.comments);
   add_comparison(renderer, options, &table.comments);
   add_stages(setup, &table);
@@ -146,11 +146,9 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
 // Probes both models, matches their light, and prepares the data that the blocks share.
 SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_taker,
                       const ModelDescription& source, const ModelDescription& target) {
-  const EffectiveWidths source_widths = probe_widths(picture_taker, source, sampled_alphas(options.samples));
-  const Range alphas = source_widths.effective;
+  const Range alphas = probe_widths(picture_taker, source, sampled_alphas(options.samples));
   const Range wanted = searched_widths(target, alphas.min);
-  const EffectiveWidths target_widths = probe_widths(picture_taker, target, wanted);
-  const Range searched = target_widths.effective;
+  const Range searched = probe_widths(picture_taker, target, wanted);
   ModelDescription responsive = target;  // restricted to the widths that change its pictures
   if (searched.min > wanted.min) responsive.alpha.min = searched.min;
   if (searched.max < wanted.max) responsive.alpha.max = searched.max;
@@ -160,8 +158,8 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =
       light_matched(source, target) ? match_diffuse(picture_taker, source, target) : DiffuseMatch{};
-  SweepSetup setup{options, picture_taker, {source, source_law}, {},           1.0,
-                   diffuse, nullptr,       source_widths,        target_widths};
+  SweepSetup setup{options,  picture_taker, {source, source_law}, {}, 1.0, diffuse, nullptr, alphas,
+                   searched, wanted};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
@@ -240,7 +238,7 @@ std::string spheres_text(const SweepSetup& setup, const std::vector<TableRow>& r
 
 }  // namespace
 
-std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
+std::vector<MappedTexel> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                                       std::size_t specular_count) {
   const auto value = [](const Range& range, std::size_t i, std::size_t count, bool open) {
     const double share = open         ? static_cast<double>(i + 1) / static_cast<double>(count)
@@ -248,7 +246,7 @@ std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_cou
                                       : static_cast<double>(i) / static_cast<double>(count - 1);
     return range.min + share * (range.max - range.min);
   };
-  std::vector<SamplePoint> samples;
+  std::vector<MappedTexel> samples;
   for (std::size_t i = 0; i < alpha_count; ++i)
     for (std::size_t j = 0; j < specular_count; ++j)
       samples.push_back({rounded(value(alphas, i, alpha_count, false), kSampleDigits),
@@ -295,9 +293,9 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
       throw Error(ErrorKind::kInterrupted, "sweep: interrupted");
     const std::vector<TableRow> rows = rounded(match_block(setup, block));
     const std::lock_guard lock(mutex);
-    for (std::size_t i = 0; i < block.samples.size(); ++i) table.rows[block.samples[i]] = rows[i];
-    boundaries[b].assign(rows.begin() + static_cast<std::ptrdiff_t>(block.samples.size()), rows.end());
-    done += block.samples.size();
+    for (std::size_t i = 0; i < block.size(); ++i) table.rows[block[i]] = rows[i];
+    boundaries[b].assign(rows.begin() + static_cast<std::ptrdiff_t>(block.size()), rows.end());
+    done += block.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });
   table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));

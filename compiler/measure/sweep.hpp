@@ -16,7 +16,7 @@ namespace remap {
 // Returns uniform samples, rounded to nine digits: `alpha_count` widths over `alphas`, both ends included,
 // times `specular_count` values over `speculars`. A lower end of 0 is omitted, because nothing can be matched
 // there. The paper uses 30 x 30 (section 5.2).
-std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
+std::vector<MappedTexel> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                                       std::size_t specular_count);
 
 // Describes the same grid in words, for SweepOptions::sampling.

@@ -6,17 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "lower/mapping.hpp"
 #include "measure/objective.hpp"
 #include "measure/parameter_roles.hpp"
 #include "measure/probe.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
-
-struct SamplePoint {
-  double alpha = 0.0;
-  double specular = 0.0;  // canonical value (probe.hpp)
-};
 
 // A PairOptions holds two models, and how their pictures are compared.
 struct PairOptions {
@@ -33,7 +29,7 @@ struct PairOptions {
 // A SweepOptions holds the settings of a sweep. Every field is recorded in the table's comments.
 struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
-  std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
+  std::vector<MappedTexel> samples;  // in the order of the table; specular canonical (probe.hpp)
   int stages = 2;                    // 1, 2 or 3 (section 3.1)
   double diffuse = 0.0;              // diffuse of the source in every sample
 };

@@ -75,7 +75,10 @@ void TargetBank::prepare(std::span<const std::size_t> nodes) const {
 }
 
 TargetGrid::TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas)
-    : picture_taker_(picture_taker), target_(target), slots_(kWidths * kSpeculars) {
+    : picture_taker_(picture_taker),
+      target_(target),
+      are_rendered_(kWidths * kSpeculars),
+      pictures_(are_rendered_.size()) {
   const Range speculars = target.linear_range();
   for (std::size_t i = 0; i < kWidths; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(kWidths - 1);
@@ -89,9 +92,9 @@ TargetGrid::TargetGrid(const PictureTaker& picture_taker, const ProbedModel& tar
 }
 
 const std::vector<float>& TargetGrid::picture(std::size_t point) const {
-  Slot& slot = slots_[point];
-  std::call_once(slot.once, [&] { slot.picture = picture_taker_.take(target_, points_[point]); });
-  return slot.picture;
+  std::call_once(are_rendered_[point],
+                 [&] { pictures_[point] = picture_taker_.take(target_, points_[point]); });
+  return pictures_[point];
 }
 
 std::vector<RoleValues> TargetGrid::minima(const std::vector<float>& source,

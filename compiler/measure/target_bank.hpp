@@ -66,16 +66,13 @@ class TargetGrid {
   std::vector<RoleValues> minima(const std::vector<float>& source, const std::vector<float>& weights) const;
 
  private:
-  struct Slot {
-    std::once_flag once;
-    std::vector<float> picture;
-  };
   const std::vector<float>& picture(std::size_t point) const;
 
   const PictureTaker& picture_taker_;
   ProbedModel target_;
   std::vector<RoleValues> points_;  // grouped by width
-  mutable std::deque<Slot> slots_;
+  mutable std::deque<std::once_flag> are_rendered_;
+  mutable std::vector<std::vector<float>> pictures_;
 };
 
 }  // namespace remap

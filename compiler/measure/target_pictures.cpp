@@ -17,21 +17,19 @@ constexpr double kDifferenceStep = 1e-3;
 // This many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
-// A Window holds the nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
-struct Window {
-  std::size_t first;
-  LagrangeBasis basis;
+// Returns the first of the nodes of the bank around `alpha`.
+std::size_t first_node(const TargetBank& bank, double alpha) {
+  std::size_t above = 0;
+  while (above + 1 < bank.size() && bank.alpha(above) < alpha) ++above;
+  return std::min(above - std::min(above, kInterpolationNodes / 2), bank.size() - kInterpolationNodes);
+}
 
-  static Window around(const TargetBank& bank, double alpha) {
-    std::size_t above = 0;
-    while (above + 1 < bank.size() && bank.alpha(above) < alpha) ++above;
-    const std::size_t first =
-        std::min(above - std::min(above, kInterpolationNodes / 2), bank.size() - kInterpolationNodes);
-    LagrangeBasis::Values logs{};
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i) logs[i] = std::log(bank.alpha(first + i));
-    return {first, LagrangeBasis(logs, std::log(alpha))};
-  }
-};
+// Returns the Lagrange basis of the nodes from `first`, in log(alpha).
+LagrangeBasis basis_at(const TargetBank& bank, std::size_t first, double alpha) {
+  LagrangeBasis::Values logs{};
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) logs[i] = std::log(bank.alpha(first + i));
+  return LagrangeBasis(logs, std::log(alpha));
+}
 
 using PixelBlock = std::array<double, kBlockPixels>;
 
@@ -101,9 +99,10 @@ std::vector<PictureTangents> BankPictures::at(const std::vector<RoleValues>& poi
 void BankPictures::add_at_width(std::span<const RoleValues> points, const std::vector<bool>& wanted,
                                 std::vector<PictureTangents>* results) const {
   const double alpha = points.front().alpha;
-  const Window window = Window::around(bank_, alpha);
+  const std::size_t begin = first_node(bank_, alpha);
+  const LagrangeBasis basis = basis_at(bank_, begin, alpha);
   std::array<const std::vector<std::vector<float>>*, kInterpolationNodes> nodes{};
-  for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(window.first + i);
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(begin + i);
   const std::size_t pixels = diffuse_.size(), members = nodes.front()->size(), first = results->size();
   std::vector<std::vector<double>> weights, slopes;
   for (const RoleValues& point : points) {
@@ -121,8 +120,8 @@ void BankPictures::add_at_width(std::span<const RoleValues> points, const std::v
       interpolated[k] = interpolated_rise[k] = {};
       for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
         const float* values = &(*nodes[i])[k][start];
-        add_scaled(window.basis.value[i], values, count, &interpolated[k]);
-        add_scaled(window.basis.derivative[i], values, count, &interpolated_rise[k]);
+        add_scaled(basis.value[i], values, count, &interpolated[k]);
+        add_scaled(basis.derivative[i], values, count, &interpolated_rise[k]);
       }
     }
     for (std::size_t p = 0; p < points.size(); ++p) {

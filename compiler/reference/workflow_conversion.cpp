@@ -24,42 +24,50 @@ namespace {
 
 namespace code = workflow_code;
 
-struct Name {
-  std::string_view operator()(const Equation2&) const { return "equation-2"; }
-  std::string_view operator()(const Projection&) const { return "projection"; }
-  std::string_view operator()(const Equation3&) const { return "equation-3"; }
-  std::string_view operator()(const KhronosSolver&) const { return "khronos"; }
-  std::string_view operator()(const LearnedNetwork&) const { return "network"; }
-};
+std::string_view name_of(ClosedFormula formula) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return "equation-2";
+    case ClosedFormula::kKhronos:
+      return "khronos";
+    default:
+      return "equation-3";
+  }
+}
+std::string_view name_of(const Projection&) { return "projection"; }
+std::string_view name_of(const Network&) { return "network"; }
 
-struct Text {
-  std::string operator()(const Equation2&) const {
-    return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+std::string text_of(ClosedFormula formula) {
+  constexpr const char* kEquation3 =
+      "equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels";
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
+    case ClosedFormula::kEquation3:
+      return kEquation3;
+    case ClosedFormula::kEquation3ByAlbedo:
+      return std::string(kEquation3) + ", weighted by albedo";
+    case ClosedFormula::kKhronos:
+      break;
   }
-  std::string operator()(const Projection& projection) const {
-    return "least difference of the pictures over base color and metallic, prior " +
-           number_text(projection.prior);
-  }
-  std::string operator()(const Equation3& equation) const {
-    return std::string("equation (3) of Sztrajman et al. 2019, metallic by the mean over the channels") +
-           (equation.mean == MetallicMean::kAlbedo ? ", weighted by albedo" : "");
-  }
-  std::string operator()(const KhronosSolver&) const {
-    return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
-  }
-  std::string operator()(const LearnedNetwork& learned) const {
-    std::string sizes = std::to_string(learned.network.inputs.size());
-    for (const Layer& layer : learned.network.layers) sizes += " x " + std::to_string(layer.output_count());
-    return "a network of " + sizes + " (" + std::string(activation_name(learned.network.activation)) +
-           "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
-  }
-};
+  return "the solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017)";
+}
+std::string text_of(const Projection& projection) {
+  return "least difference of the pictures over base color and metallic, prior " +
+         number_text(projection.prior);
+}
+std::string text_of(const Network& network) {
+  std::string sizes = std::to_string(network.inputs.size());
+  for (const Layer& layer : network.layers) sizes += " x " + std::to_string(layer.output_count());
+  return "a network of " + sizes + " (" + std::string(activation_name(network.activation)) +
+         "), learned from metallic materials as in section 8 of Sztrajman et al. 2019";
+}
 
 constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
 
-void require_network(const LearnedNetwork& learned, const std::string& context) {
-  const std::size_t inputs = learned.network.inputs.size(), outputs = learned.network.outputs.size();
-  if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
+void require_network(const Network& network, const std::string& context) {
+  const std::size_t inputs = network.inputs.size(), outputs = network.outputs.size();
+  if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !network.layers.empty()) return;
   throw Error(ErrorKind::kInput,
               context + ": a network of " + std::to_string(inputs) + " inputs and " +
                   std::to_string(outputs) +
@@ -102,9 +110,30 @@ std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what
   return all;
 }
 
-// Interprets a network in double precision, texel by texel.
-std::size_t interpret(const Network& network, const code::Conventions& use,
-                      const std::array<const float*, 7>& in, const std::array<float*, 5>& out) {
+// Each block_by() converts a block to metallic by a formula. It returns the number of texels outside.
+using SpecularBlock = std::array<const float*, 7>;
+using MetallicBlock = std::array<float*, 5>;
+
+std::size_t block_by(ClosedFormula formula, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  switch (formula) {
+    case ClosedFormula::kEquation2:
+      return 0;  // it leads to the specular workflow only
+    case ClosedFormula::kKhronos:
+      return code::solve_khronos(use, in, out);
+    default:
+      return code::solve_equation_3(use, formula == ClosedFormula::kEquation3ByAlbedo, in, out);
+  }
+}
+
+std::size_t block_by(const Projection& projection, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
+  return code::project(use, static_cast<float>(projection.prior), in, out);
+}
+
+// Interprets the network in double precision, texel by texel.
+std::size_t block_by(const Network& network, const code::Conventions& use, const SpecularBlock& in,
+                     const MetallicBlock& out) {
   code::ClampedBlock<7, code::kMetallicBlock> block;
   const std::size_t outside = code::hold(in, block, std::make_index_sequence<7>());
   for (std::size_t i = 0; i < code::kMetallicBlock; ++i) {
@@ -122,25 +151,6 @@ std::size_t interpret(const Network& network, const code::Conventions& use,
   code::write_width(use, block, out[4]);
   return outside;
 }
-
-// ConvertBlock converts a block to metallic by a formula.
-struct ConvertBlock {
-  const code::Conventions& use;
-  const std::array<const float*, 7>& in;
-  const std::array<float*, 5>& out;
-
-  std::size_t operator()(const Equation2&) const { return 0; }
-  std::size_t operator()(const Projection& projection) const {
-    return code::project(use, static_cast<float>(projection.prior), in, out);
-  }
-  std::size_t operator()(const Equation3& equation) const {
-    return code::solve_equation_3(use, equation.mean == MetallicMean::kAlbedo, in, out);
-  }
-  std::size_t operator()(const KhronosSolver&) const { return code::solve_khronos(use, in, out); }
-  std::size_t operator()(const LearnedNetwork& learned) const {
-    return interpret(learned.network, use, in, out);
-  }
-};
 
 void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
   if (conversion.is_to_metallic() == to_metallic) return;
@@ -165,17 +175,20 @@ float width_of(const code::Texel& texel, const code::Conventions& use) {
 
 }  // namespace
 
-std::string_view formula_name(const WorkflowFormula& formula) { return std::visit(Name{}, formula); }
+std::string_view formula_name(const WorkflowFormula& formula) {
+  return std::visit([](const auto& kind) { return name_of(kind); }, formula);
+}
 
-std::string formula_text(const WorkflowFormula& formula) { return std::visit(Text{}, formula); }
+std::string formula_text(const WorkflowFormula& formula) {
+  return std::visit([](const auto& kind) { return text_of(kind); }, formula);
+}
 
 void require_valid(const WorkflowConversion& conversion, const std::string& context) {
   require_valid(conversion.specular, conversion.metallic, context);
   if (const auto* projection = std::get_if<Projection>(&conversion.formula))
     require_prior(projection->prior, context);
-  if (const auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
-    require_network(*learned, context);
-  if (!std::holds_alternative<KhronosSolver>(conversion.formula)) return;
+  if (const auto* network = std::get_if<Network>(&conversion.formula)) require_network(*network, context);
+  if (!is_formula(conversion.formula, ClosedFormula::kKhronos)) return;
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
@@ -211,7 +224,8 @@ std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t c
   const auto targets = rows<5>(out, "metallic materials");
   return code::convert_rows<code::kMetallicBlock>(
       count, sources, targets, [&](const auto& from, const auto& to) {
-        return std::visit(ConvertBlock{use, from, to}, conversion.formula);
+        return std::visit([&](const auto& kind) { return block_by(kind, use, from, to); },
+                          conversion.formula);
       });
 }
 

@@ -18,50 +18,35 @@
 
 namespace remap {
 
-// Equation2 converts from metallic to specular by equation (2) of the paper. It is exact.
-struct Equation2 {
-  bool operator==(const Equation2&) const = default;
+// A ClosedFormula is a formula without numbers of its own. Metallic workflows cannot express all specular
+// materials, so the formulas to metallic differ.
+enum class ClosedFormula {
+  kEquation2,  // from metallic to specular by equation (2) of the paper; it is exact
+  kEquation3,  // the inverse of equation (2) for each channel separately; metallic is the mean over channels
+  kEquation3ByAlbedo,  // like kEquation3, but the mean is weighted by albedo
+  kKhronos,            // solves KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse
 };
+inline constexpr NamedValues<ClosedFormula, 2> kMetallicMeans = {
+    {{ClosedFormula::kEquation3, "plain"}, {ClosedFormula::kEquation3ByAlbedo, "albedo"}}};
 
-// The following formulas convert from specular to metallic, which cannot express all specular materials.
-//
 // A Projection finds the base color and metallic with the least difference in pictures, in closed form.
 struct Projection {
   double prior = 0.0;  // >= 0 (kCleanPrior)
   bool operator==(const Projection&) const = default;
 };
 
-// Equation (3) of the paper is the inverse of equation (2) for each channel separately. Metallic is the mean
-// over the channels.
-enum class MetallicMean {
-  kPlain,
-  kAlbedo,  // weighted by albedo
-};
-inline constexpr NamedValues<MetallicMean, 2> kMetallicMeans = {
-    {{MetallicMean::kPlain, "plain"}, {MetallicMean::kAlbedo, "albedo"}}};
-struct Equation3 {
-  MetallicMean mean = MetallicMean::kAlbedo;
-  bool operator==(const Equation3&) const = default;
-};
-
-// KhronosSolver solves KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
-struct KhronosSolver {
-  bool operator==(const KhronosSolver&) const = default;
-};
-
-// A LearnedNetwork was trained on the inverse of equation (2) (section 8 of the paper). It goes from diffuse
-// RGB and specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
+// A network was trained on the inverse of equation (2) (section 8 of the paper). It goes from diffuse RGB and
+// specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
 // roughness.
-struct LearnedNetwork {
-  Network network;  // 6 inputs, 4 outputs
-  bool operator==(const LearnedNetwork&) const = default;
-};
+using WorkflowFormula = std::variant<ClosedFormula, Projection, Network>;
 
-using WorkflowFormula = std::variant<Equation2, Projection, Equation3, KhronosSolver, LearnedNetwork>;
-
+inline bool is_formula(const WorkflowFormula& formula, ClosedFormula closed) noexcept {
+  const ClosedFormula* const own = std::get_if<ClosedFormula>(&formula);
+  return own != nullptr && *own == closed;
+}
 // Returns true if the formula was trained on a table. All others are closed forms.
 inline bool is_learned(const WorkflowFormula& formula) noexcept {
-  return std::holds_alternative<LearnedNetwork>(formula);
+  return std::holds_alternative<Network>(formula);
 }
 
 // Returns `equation-2`, `projection`, `equation-3`, `khronos` or `network`.
@@ -74,7 +59,7 @@ struct WorkflowConversion {
   SpecularWorkflow specular;
   MetallicWorkflow metallic;
   WorkflowFormula formula;
-  bool is_to_metallic() const noexcept { return !std::holds_alternative<Equation2>(formula); }
+  bool is_to_metallic() const noexcept { return !is_formula(formula, ClosedFormula::kEquation2); }
   const std::string& source_model() const noexcept {
     return is_to_metallic() ? specular.model : metallic.model;
   }

@@ -15,7 +15,7 @@ namespace remap {
 namespace {
 
 // Parameters holds the target's parameters at each alpha of the options.
-using Parameters = std::vector<SamplePoint>;
+using Parameters = std::vector<MappedTexel>;
 
 Parameters copied(const EnvironmentsOptions& options) {
   Parameters parameters;

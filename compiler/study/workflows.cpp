@@ -234,13 +234,13 @@ std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learne
     return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
   };
   std::vector<WorkflowMethod> methods = {
-      method_of("equation (3), mean, 0.03", plain(Equation3{MetallicMean::kPlain}, kPaperDielectricF0)),
-      method_of("equation (3), weighted, 0.03", plain(Equation3{MetallicMean::kAlbedo}, kPaperDielectricF0)),
-      method_of("equation (3), mean, 0.04", plain(Equation3{MetallicMean::kPlain}, kCommonDielectricF0)),
+      method_of("equation (3), mean, 0.03", plain(ClosedFormula::kEquation3, kPaperDielectricF0)),
+      method_of("equation (3), weighted, 0.03", plain(ClosedFormula::kEquation3ByAlbedo, kPaperDielectricF0)),
+      method_of("equation (3), mean, 0.04", plain(ClosedFormula::kEquation3, kCommonDielectricF0)),
       method_of("equation (3), weighted, 0.04",
-                plain(Equation3{MetallicMean::kAlbedo}, kCommonDielectricF0))};
-  WorkflowMethod khronos =
-      method_of("Khronos", conversion_by(KhronosSolver{}, kCommonDielectricF0, DiffuseConvention::kScaled));
+                plain(ClosedFormula::kEquation3ByAlbedo, kCommonDielectricF0))};
+  WorkflowMethod khronos = method_of(
+      "Khronos", conversion_by(ClosedFormula::kKhronos, kCommonDielectricF0, DiffuseConvention::kScaled));
   khronos.reflection.diffuse_of_albedo = 1.0;
   methods.push_back(khronos);
   for (const WorkflowFit& network : learned) {
@@ -258,9 +258,9 @@ std::vector<WorkflowMethod> gltf_methods() {
   const auto scaled = [](WorkflowFormula formula) {
     return conversion_by(std::move(formula), kCommonDielectricF0, DiffuseConvention::kScaled);
   };
-  return {method_of("equation (3), mean", scaled(Equation3{MetallicMean::kPlain})),
-          method_of("equation (3), weighted", scaled(Equation3{MetallicMean::kAlbedo})),
-          method_of("Khronos", scaled(KhronosSolver{})),
+  return {method_of("equation (3), mean", scaled(ClosedFormula::kEquation3)),
+          method_of("equation (3), weighted", scaled(ClosedFormula::kEquation3ByAlbedo)),
+          method_of("Khronos", scaled(ClosedFormula::kKhronos)),
           method_of("projection", scaled(Projection{kCleanPrior}))};
 }
 
@@ -340,7 +340,7 @@ std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& l
   std::vector<WorkflowConversion> there;  // conversions to specular by equation (2), one for each method
   for (WorkflowMethod& method : methods) {
     WorkflowConversion& conversion = there.emplace_back(method.conversion);
-    if (!std::holds_alternative<KhronosSolver>(method.conversion.formula)) continue;
+    if (!is_formula(method.conversion.formula, ClosedFormula::kKhronos)) continue;
     // Importers apply the solver to plain maps, for which it is not made, so this is tested, too.
     method.name += ", plain";
     conversion.specular.diffuse = conversion.metallic.diffuse = DiffuseConvention::kPlain;
@@ -350,7 +350,7 @@ std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& l
     method.name += ", glTF";
     methods.push_back(std::move(method));
   }
-  for (WorkflowConversion& conversion : there) conversion.formula = Equation2{};
+  for (WorkflowConversion& conversion : there) conversion.formula = ClosedFormula::kEquation2;
   std::vector<RoundTripErrors> trips(methods.size() * kFamilyKinds);
   run_parallel(trips.size(), jobs, [&](std::size_t i) {
     const std::size_t method = i / kFamilyKinds;

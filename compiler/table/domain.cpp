@@ -37,33 +37,32 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
   return column_of;
 }
 
-// A Column holds rows of similar width.
-struct Column {
-  double first = INFINITY, last = -INFINITY;  // smallest and largest alpha1 of its usable rows
-  double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
-  double reach = 0.0;                         // highest usable specular1 below `cut`
-  bool is_cut() const { return std::isfinite(cut); }
-};
-
-std::vector<Column> columns_of(const Table& table) {
+// Returns columns of rows of similar width. A column reaches to the highest usable specular1 below its cut,
+// the lowest specular1 that is clamped without an answer.
+std::vector<CoveredColumn> columns_of(const Table& table) {
   const std::map<double, std::size_t> column_of = column_of_alpha(table);
   if (column_of.empty()) return {};
-  std::vector<Column> columns(column_of.rbegin()->second + 1);
+  std::vector<CoveredColumn> columns(column_of.rbegin()->second + 1, {INFINITY, -INFINITY, 0.0, false});
+  std::vector<double> cuts(columns.size(), INFINITY);
   for (const TableRow& row : table.rows) {
-    Column& column = columns[column_of.at(row.alpha1)];
-    if (row.status == RowStatus::kClamped) column.cut = std::min(column.cut, row.specular1);
+    double& cut = cuts[column_of.at(row.alpha1)];
+    if (row.status == RowStatus::kClamped) cut = std::min(cut, row.specular1);
   }
   double highest = 0.0;
   for (const TableRow& row : table.rows) {
-    Column& column = columns[column_of.at(row.alpha1)];
-    if (!has_answer(row) || row.specular1 >= column.cut) continue;
+    const std::size_t at = column_of.at(row.alpha1);
+    CoveredColumn& column = columns[at];
+    if (!has_answer(row) || row.specular1 >= cuts[at]) continue;
     column.first = std::min(column.first, row.alpha1);
     column.last = std::max(column.last, row.alpha1);
     column.reach = std::max(column.reach, row.specular1);
     highest = std::max(highest, column.reach);
   }
-  for (Column& column : columns)
-    if (!column.is_cut() && column.reach >= kSameReach * highest) column.reach = highest;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (std::isfinite(cuts[i])) continue;
+    if (columns[i].reach >= kSameReach * highest) columns[i].reach = highest;
+    columns[i].is_gap = columns[i].reach == 0.0;
+  }
   return columns;
 }
 
@@ -83,10 +82,7 @@ void join_widths(std::vector<TableRow>& rows) {
 }  // namespace
 
 Domain table_domain(const Table& table) {
-  std::vector<CoveredColumn> covered;
-  for (const Column& column : columns_of(table))
-    covered.push_back({column.first, column.last, column.reach, column.reach == 0.0 && !column.is_cut()});
-  const auto domain = covered_box(covered);
+  const auto domain = covered_box(columns_of(table));
   if (!domain)
     throw Error(ErrorKind::kInput, table.name + ": no width has usable rows (rows of status ok are needed)");
   return *domain;

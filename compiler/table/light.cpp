@@ -15,25 +15,28 @@ std::string change_text(double scale) {
 
 }  // namespace
 
-std::optional<LightRemark> light_remark(const LightMatch& match) {
+bool is_wrong_light(const LightMatch& match) {
+  return std::fabs(match.scale - 1.0) > kMostLightChange && !match.accepted;
+}
+
+std::string light_remark(const LightMatch& match) {
   const double change = std::fabs(match.scale - 1.0);
-  if (!(change > kSaidLightChange || match.diffuse_error > kSaidLightChange)) return std::nullopt;
+  if (!(change > kSaidLightChange || match.diffuse_error > kSaidLightChange)) return "";
   const std::string left = "the diffuse pictures differ by " + percent(match.diffuse_error);
-  if (!(change > kSaidLightChange)) return LightRemark{false, left + " (specular is not changed by it)"};
-  LightRemark remark{change > kMostLightChange && !match.accepted, ""};
-  remark.text = "the source's light is multiplied by " + number_text(rounded(match.scale, 4)) +
-                " to match diffuse, after which " + left + ": specular2 is " + change_text(match.scale) +
-                " for it, which is right only if the lights of the renderers differ";
-  if (remark.is_error)
-    remark.text +=
+  if (!(change > kSaidLightChange)) return left + " (specular is not changed by it)";
+  std::string remark = "the source's light is multiplied by " + number_text(rounded(match.scale, 4)) +
+                       " to match diffuse, after which " + left + ": specular2 is " +
+                       change_text(match.scale) +
+                       " for it, which is right only if the lights of the renderers differ";
+  if (is_wrong_light(match))
+    remark +=
         " (check the diffuse of both models; --no-irradiance-matching keeps the light unchanged, "
         "--accept-light continues anyway)";
   return remark;
 }
 
 void require_light(const LightMatch& match, const std::string& context) {
-  const auto remark = light_remark(match);
-  if (remark && remark->is_error) throw input_error(context + ": " + remark->text);
+  if (is_wrong_light(match)) throw input_error(context + ": " + light_remark(match));
 }
 
 LightMatch light_match(const Comments& comments) {

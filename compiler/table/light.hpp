@@ -4,7 +4,6 @@
 // Lambert), it wrongly changes the specular of every row.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "table/csv.hpp"
@@ -23,21 +22,19 @@ struct LightMatch {
   bool accepted = false;
 };
 
-// A LightRemark is the warning about a match of light.
-struct LightRemark {
-  bool is_error = false;  // specular changes by more than kMostLightChange, and nobody has accepted it
-  std::string text;       // `what is wrong (what to do)`, with the numbers
-};
-
 // A scale or difference beyond this value is reported. Noise and rounding errors of renderers are smaller.
 inline constexpr double kSaidLightChange = 0.01;
 // Beyond this value, the scale changes specular by more than a fit's errors and than most people see.
 inline constexpr double kMostLightChange = 0.05;
 
-// Returns the remark, or nothing if the light matches. Sweeps, checks, fits and cards all use this rule.
-std::optional<LightRemark> light_remark(const LightMatch& match);
+// Returns true if specular changes by more than kMostLightChange and nobody has accepted it.
+bool is_wrong_light(const LightMatch& match);
 
-// Throws kInput, beginning with `context`, if the remark is an error.
+// Returns `what is wrong (what to do)`, with the numbers, or an empty text if the light matches. Sweeps,
+// checks, fits and cards all use this rule.
+std::string light_remark(const LightMatch& match);
+
+// Throws kInput with the remark, beginning with `context`, if the light is wrong.
 void require_light(const LightMatch& match, const std::string& context);
 
 // Returns the match that comments record. Comments without one mean equal light.

@@ -1,4 +1,4 @@
-// This file holds the result of every regression: a mapping and how it was found.
+// This file holds samples to train on, and the result of every regression: a mapping and how it was found.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,15 @@
 #include "table/table.hpp"
 
 namespace remap {
+
+// A Samples holds the training data: rows of `input_count` inputs and `output_count` outputs.
+struct Samples {
+  std::size_t input_count = 0;
+  std::size_t output_count = 0;
+  std::vector<double> inputs;
+  std::vector<double> outputs;
+  std::size_t count() const noexcept { return input_count == 0 ? 0 : inputs.size() / input_count; }
+};
 
 struct Regression {
   MappingKind mapping;

@@ -77,28 +77,29 @@ std::string moved_list(const fs::path& list, const fs::path& folder) {
   return text;
 }
 
-void write_entries(CopyWriter& writer, const TabulatedMaterial& material, const fs::path& table) {
+void write_entries(CopyWriter& writer, const TabulatedMaterial& material) {
   writer.write("index.exr", {"Y"},
                [&](std::uint32_t texel, std::size_t) { return static_cast<float>(material.entries[texel]); });
-  if (table.extension() == ".csv")
-    writer.write_text("profiles.csv", read_file(table));
+  if (material.table.extension() == ".csv")
+    writer.write_text("profiles.csv", read_file(material.table));
   else
-    writer.write_text("brdfs.txt", moved_list(table, writer.folder()));
+    writer.write_text("brdfs.txt", moved_list(material.table, writer.folder()));
 }
 
 }  // namespace
 
 std::vector<fs::path> write_copied_set(const fs::path& folder, const std::vector<std::uint32_t>& texels,
-                                       const MapFrame& source, const CopiedTemplate& goal) {
+                                       const MapFrame& source, const MaterialRef& goal,
+                                       const MapFrame& goal_frame) {
   CopyWriter writer(folder, texels, source);
-  if (const WarpMaterial* parametric = goal.material.parametric())
+  if (const WarpMaterial* parametric = goal.parametric())
     write_parameters(writer, *parametric);
-  else if (goal.table.extension() == ".exr")
-    write_profiles(writer, *goal.material.tabulated());
+  else if (goal.tabulated()->table.extension() == ".exr")
+    write_profiles(writer, *goal.tabulated());
   else
-    write_entries(writer, *goal.material.tabulated(), goal.table);
+    write_entries(writer, *goal.tabulated());
   writer.write("template_texel.exr", {"X", "Y"}, [&](std::uint32_t texel, std::size_t c) {
-    return static_cast<float>(c == 0 ? texel % goal.frame.width : texel / goal.frame.width);
+    return static_cast<float>(c == 0 ? texel % goal_frame.width : texel / goal_frame.width);
   });
   return std::move(writer.files);
 }

@@ -9,12 +9,6 @@
 
 namespace remap {
 
-struct CopiedTemplate {
-  MaterialRef material;
-  MapFrame frame;
-  std::filesystem::path table;  // for a tabulated material: profiles.exr, profiles.csv or brdfs.txt
-};
-
 // These are the files of all kinds.
 inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specular.exr",      "alpha.exr",
                                                           "profiles.exr", "index.exr",         "profiles.csv",
@@ -29,6 +23,7 @@ inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specu
 // `texels` is the result of copy_exactly(). Returns the files. Throws kOutput.
 std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
                                                     const std::vector<std::uint32_t>& texels,
-                                                    const MapFrame& source, const CopiedTemplate& goal);
+                                                    const MapFrame& source, const MaterialRef& goal,
+                                                    const MapFrame& goal_frame);
 
 }  // namespace remap

@@ -53,7 +53,7 @@ Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std:
       count += shared[texel] != 0 ? 1.0 : 0.0;
       shared[texel] = 0;
     }
-    if (count / size > largest.share) largest = {k, count / size};
+    if (count / size > largest.share) largest = {stroke, k, count / size, side == &StrokePair::target};
   }
   return largest;
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct TabulatedMaterial {
   std::vector<double> radii;
   Eigen::MatrixXf samples;             // red, then green, then blue; one column per entry; finite, at least 0
   std::vector<std::uint32_t> entries;  // entry of each texel, row-major; a texel without an entry is skipped
+  std::size_t width = 0, height = 0;   // size of the map of entries
+  std::filesystem::path table;         // profiles.exr, profiles.csv or brdfs.txt
 };
 
 // A MaterialRef refers to a material of either kind, which must outlive it.
@@ -78,8 +81,9 @@ std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stro
 
 // An Overlap is the fraction of a stroke that another stroke covers.
 struct Overlap {
-  std::size_t other = 0;  // index of that stroke
-  double share = 0.0;     // fraction of the texels, 0 to 1
+  std::size_t stroke = 0, other = 0;  // indices of the strokes
+  double share = 0.0;                 // fraction of the texels, 0 to 1
+  bool in_template = false;
 };
 // Finds the stroke that covers most of `stroke` on one side. Indices are below `texel_count`.
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,

@@ -10,16 +10,10 @@
 
 namespace remap {
 
-class NearestTexel {
- public:
-  // Ignores rows with NaN; at least one row must be finite.
-  explicit NearestTexel(const Points& positions);
+// A NearestTexel returns the index of the closest position for each point.
+using NearestTexel = std::function<std::vector<std::uint32_t>(const Points& points)>;
 
-  // Returns the index of the closest row of `positions` for each point.
-  std::vector<std::uint32_t> find(const Points& points) const { return find_(points); }
-
- private:
-  std::function<std::vector<std::uint32_t>(const Points&)> find_;
-};
+// Ignores positions with NaN; at least one row must be finite.
+NearestTexel nearest_texel(const Points& positions);
 
 }  // namespace remap

@@ -15,8 +15,8 @@ constexpr double kCoarsest = 20.0, kFinest = 120.0;  // number of bins along the
 double largest_extent(const Points& positions) {
   double extent = 0.0;
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-    const Extent own = extent_of(positions, k);
-    extent = std::max(extent, own.high - own.low);
+    const Range own = extent_of(positions, k);
+    extent = std::max(extent, own.max - own.min);
   }
   return extent;
 }
@@ -53,7 +53,7 @@ int nearest_point(const Points& points, const Eigen::RowVectorXd& position) {
 
 }  // namespace
 
-Extent extent_of(const Points& positions, Eigen::Index axis) {
+Range extent_of(const Points& positions, Eigen::Index axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
     low = std::min(low, positions(i, axis));  // comparisons with NaN change neither
@@ -77,9 +77,9 @@ Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uin
 BinGrid::BinGrid(const Points& positions, double spacing) : dimension_(positions.cols()), spacing_(spacing) {
   for (Eigen::Index k = 0; k < dimension_; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const Extent extent = extent_of(positions, k);
-    low_[axis] = extent.low;
-    cells_[axis] = static_cast<long>((extent.high - extent.low) / spacing) + 1;
+    const Range extent = extent_of(positions, k);
+    low_[axis] = extent.min;
+    cells_[axis] = static_cast<long>((extent.max - extent.min) / spacing) + 1;
     size_ *= static_cast<std::size_t>(cells_[axis]);
   }
 }

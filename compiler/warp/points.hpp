@@ -9,11 +9,8 @@
 
 namespace remap {
 
-// An Extent is the least and the largest coordinate along an axis, ignoring NaN.
-struct Extent {
-  double low = 0.0, high = 0.0;
-};
-Extent extent_of(const Points& positions, Eigen::Index axis);
+// Returns the least and the largest coordinate along an axis, ignoring NaN.
+Range extent_of(const Points& positions, Eigen::Index axis);
 
 // Returns the mean position of the finite `texels`, or the origin if no texel is finite.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);

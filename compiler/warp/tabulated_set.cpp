@@ -32,69 +32,54 @@ std::optional<fs::path> table_in(const fs::path& folder) {
   return std::nullopt;
 }
 
-// A ProfileColumn is a color channel and radius, and the index of its column or channel in the file.
-struct ProfileColumn {
-  char channel = 'Y';
-  double radius = 0.0;
-  std::size_t column = 0;
-};
-
-std::optional<ProfileColumn> profile_column(std::string_view name, std::size_t column) {
+// Returns the radius of a column or channel such as `R@0.5`, or nothing for other names.
+std::optional<double> profile_radius(std::string_view name) {
   if (name.size() < 3 || name[1] != '@' || std::string_view("RGBY").find(name[0]) == std::string_view::npos)
     return std::nullopt;
   const auto radius = parse_number(name.substr(2));
-  if (!radius || !(*radius > 0.0)) return std::nullopt;
-  return ProfileColumn{name[0], *radius, column};
+  return radius && *radius > 0.0 ? radius : std::nullopt;
 }
 
-// A ProfileLayout holds the radii of a table, and the column of each sample of red, green and blue.
-struct ProfileLayout {
-  std::vector<double> radii;
-  std::vector<std::size_t> columns;  // 3 x radii
-};
-
-ProfileLayout profile_layout(const std::vector<std::string>& names, const std::string& context) {
+// Sets the radii of a table. Returns the column of each sample of red, green and blue.
+std::vector<std::size_t> profile_columns(const std::vector<std::string>& names, TabulatedMaterial& material) {
   std::map<char, std::map<double, std::size_t>> found;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (const auto column = profile_column(names[i], i))
-      found[column->channel][column->radius] = column->column;
+    if (const auto radius = profile_radius(names[i])) found[names[i].front()][*radius] = i;
   const bool is_grey = found.contains('Y');
-  ProfileLayout layout;
-  for (const auto& [radius, column] : found[is_grey ? 'Y' : 'R']) layout.radii.push_back(radius);
+  std::vector<std::size_t> columns;
+  for (const auto& [radius, column] : found[is_grey ? 'Y' : 'R']) material.radii.push_back(radius);
   for (const char channel : {'R', 'G', 'B'}) {
     const auto& own = found[is_grey ? 'Y' : channel];
     std::vector<double> radii;
     for (const auto& [radius, column] : own) {
       radii.push_back(radius);
-      layout.columns.push_back(column);
+      columns.push_back(column);
     }
-    if (radii.size() < 2 || radii != layout.radii)
-      throw input_error(context +
+    if (radii.size() < 2 || radii != material.radii)
+      throw input_error(material.table.string() +
                         ": requires columns named R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, with the "
                         "same two or more radii for each; the first column is " +
                         (names.empty() ? "missing" : "'" + names.front() + "'"));
   }
-  return layout;
+  return columns;
 }
 
-void set_size(TabulatedSet& set, const ImageLayout& layout) {
-  set.width = static_cast<std::size_t>(layout.width);
-  set.height = static_cast<std::size_t>(layout.height);
+void set_size(TabulatedMaterial& material, const ImageLayout& layout) {
+  material.width = static_cast<std::size_t>(layout.width);
+  material.height = static_cast<std::size_t>(layout.height);
 }
 
-void read_profile_map(TabulatedSet& set) {
-  ImageReader image(set.table);
-  set_size(set, image.layout());
+void read_profile_map(TabulatedMaterial& material) {
+  ImageReader image(material.table);
+  set_size(material, image.layout());
   std::vector<std::string> names;
   for (const Channel& channel : image.layout().channels) names.push_back(channel.name);
-  const ProfileLayout layout = profile_layout(names, set.table.string());
+  const std::vector<std::size_t> columns = profile_columns(names, material);
   const std::vector<std::byte> texels = texels_of(image);
-  TabulatedMaterial& material = set.material;
-  material.radii = layout.radii;
-  material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
-                          static_cast<Eigen::Index>(set.width * set.height));
-  for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-    const std::vector<float> values = channel_values(image.layout(), layout.columns[row], texels);
+  material.samples.resize(static_cast<Eigen::Index>(columns.size()),
+                          static_cast<Eigen::Index>(material.width * material.height));
+  for (std::size_t row = 0; row < columns.size(); ++row) {
+    const std::vector<float> values = channel_values(image.layout(), columns[row], texels);
     material.samples.row(static_cast<Eigen::Index>(row)) =
         Eigen::Map<const Eigen::RowVectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
@@ -106,44 +91,43 @@ void read_profile_map(TabulatedSet& set) {
   }
 }
 
-void read_profile_table(TabulatedSet& set) {
-  const std::string text = read_file(set.table);
-  const Csv csv = parse_csv(text, set.table.string());
+void read_profile_table(TabulatedMaterial& material) {
+  const std::string text = read_file(material.table);
+  const Csv csv = parse_csv(text, material.table.string());
   std::vector<std::string> names;
   for (const CsvCell& cell : csv.header.cells) names.emplace_back(cell.text);
-  const ProfileLayout layout = profile_layout(names, set.table.string());
-  set.material.radii = layout.radii;
-  set.material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
-                              static_cast<Eigen::Index>(csv.lines.size()));
+  const std::vector<std::size_t> columns = profile_columns(names, material);
+  material.samples.resize(static_cast<Eigen::Index>(columns.size()),
+                          static_cast<Eigen::Index>(csv.lines.size()));
   for (std::size_t entry = 0; entry < csv.lines.size(); ++entry)
-    for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-      const CsvCell& cell = csv.lines[entry].cells[layout.columns[row]];
-      const double value = csv.number(csv.lines[entry], cell, names[layout.columns[row]]);
+    for (std::size_t row = 0; row < columns.size(); ++row) {
+      const CsvCell& cell = csv.lines[entry].cells[columns[row]];
+      const double value = csv.number(csv.lines[entry], cell, names[columns[row]]);
       if (!(value >= 0.0 && std::isfinite(value)))
         csv.fail(csv.lines[entry].number, cell.column,
                  "'" + std::string(cell.text) + "' is not a finite number of at least 0");
-      set.material.samples(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(entry)) =
+      material.samples(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(entry)) =
           static_cast<float>(value);
     }
 }
 
-void read_brdf_list(TabulatedSet& set) {
-  std::istringstream lines(read_file(set.table));
+void read_brdf_list(TabulatedMaterial& material) {
+  std::istringstream lines(read_file(material.table));
   std::vector<std::vector<float>> columns;
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (columns.size() == kMostBrdfs)
-      throw input_error(set.table.string() + ": has more than " + std::to_string(kMostBrdfs) +
+      throw input_error(material.table.string() + ": has more than " + std::to_string(kMostBrdfs) +
                         " BRDFs, which is the limit (split the list)");
-    if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
+    if (!line.empty()) columns.push_back(read_merl(material.table.parent_path() / line));
   }
   if (columns.empty())
-    throw input_error(set.table.string() + ": contains no file name (write one BRDF file per line)");
-  set.material.samples.resize(static_cast<Eigen::Index>(columns.front().size()),
-                              static_cast<Eigen::Index>(columns.size()));
+    throw input_error(material.table.string() + ": contains no file name (write one BRDF file per line)");
+  material.samples.resize(static_cast<Eigen::Index>(columns.front().size()),
+                          static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
-    set.material.samples.col(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::VectorXf>(columns[i].data(), set.material.samples.rows());
+    material.samples.col(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::VectorXf>(columns[i].data(), material.samples.rows());
 }
 
 double largest_of(PixelType type) {
@@ -159,24 +143,24 @@ double largest_of(PixelType type) {
   }
 }
 
-void read_index_map(const fs::path& folder, TabulatedSet& set) {
+void read_index_map(const fs::path& folder, TabulatedMaterial& material) {
   const auto name = std::find_if(kIndexMaps.begin(), kIndexMaps.end(),
                                  [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
-    throw input_error(folder.string() + ": " + set.table.filename().string() +
+    throw input_error(folder.string() + ": " + material.table.filename().string() +
                       " requires a map of its entries (add index.exr, .png or .tif)");
   ImageReader image(folder / *name);
   const ImageLayout& layout = image.layout();
   if (layout.channels.size() != 1)
     throw input_error(image.path().string() + ": has " + std::to_string(layout.channels.size()) +
                       " channels, but an index map must have one");
-  set_size(set, layout);
-  const auto entries = static_cast<double>(set.material.samples.cols());
+  set_size(material, layout);
+  const auto entries = static_cast<double>(material.samples.cols());
   const double largest = largest_of(layout.channels[0].type);
   for (const float value : channel_values(layout, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
     const bool is_entry = entry >= 0.0 && entry < entries;  // false for NaN, too
-    set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
+    material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
   }
 }
 
@@ -184,23 +168,23 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
 
 bool is_tabulated_folder(const fs::path& folder) { return table_in(folder).has_value(); }
 
-TabulatedSet read_tabulated_set(const fs::path& folder) {
+TabulatedMaterial read_tabulated_set(const fs::path& folder) {
   const auto table = table_in(folder);
   if (!table)
     throw input_error(folder.string() + ": contains no table (profiles.exr, profiles.csv or brdfs.txt)");
-  TabulatedSet set;
-  set.table = *table;
-  set.material.name = folder.string();
+  TabulatedMaterial material;
+  material.table = *table;
+  material.name = folder.string();
   if (table->extension() == ".exr") {
-    read_profile_map(set);
-    return set;
+    read_profile_map(material);
+    return material;
   }
   if (table->extension() == ".csv")
-    read_profile_table(set);
+    read_profile_table(material);
   else
-    read_brdf_list(set);
-  read_index_map(folder, set);
-  return set;
+    read_brdf_list(material);
+  read_index_map(folder, material);
+  return material;
 }
 
 }  // namespace remap

@@ -8,7 +8,9 @@
 
 namespace remap {
 
-// A TabulatedSet is read from a folder that contains one of
+bool is_tabulated_folder(const std::filesystem::path& folder);
+
+// Reads a folder that contains one of
 //   profiles.exr                one profile per texel: channels `R@<radius>`, `G@<radius>`, `B@<radius>` for
 //                               each radius, or `Y@<radius>` if the profile is grey
 //   profiles.csv and a map      columns with the same names, one row per profile; the first is entry 0
@@ -16,19 +18,9 @@ namespace remap {
 //                               of the MERL database (Matusik et al. 2003); the first is entry 0
 // The map is index.exr, .png or .tif with one channel: the number of each texel's entry. Texels with another
 // value are skipped. Radii of source and template must have the same unit.
-struct TabulatedSet {
-  TabulatedMaterial material;
-  std::size_t width = 0, height = 0;
-  std::filesystem::path table;  // profiles.exr, profiles.csv or brdfs.txt
-
-  MapFrame frame() const { return {material.name, width, height}; }
-};
-
-bool is_tabulated_folder(const std::filesystem::path& folder);
-
-// Reads a folder. Throws kInput for a folder without a table, a file that cannot be read, and unknown columns
+// Throws kInput for a folder without a table, a file that cannot be read, and unknown columns
 // or channels. Also throws it for radii that differ between channels, and negative or infinite values.
-TabulatedSet read_tabulated_set(const std::filesystem::path& folder);
+TabulatedMaterial read_tabulated_set(const std::filesystem::path& folder);
 
 // Returns the reflectance of a MERL file at the directions of half_vector_quadrature(), channel by channel.
 // Cells that were not measured are 0. Throws kInput.

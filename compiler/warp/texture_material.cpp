@@ -54,41 +54,33 @@ bool add_map(const FoundSet& set, const fs::path& root, Parameter parameter, boo
   return true;
 }
 
-struct MaterialRequest {
-  TextureSetRequest maps;
-  bool from_metallic = false, is_albedo = false;
-};
-
 // Requests the maps of the specular workflow if they exist. Otherwise it requests the maps of the metallic
 // workflow, and otherwise the diffuse map.
-MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
-  const FoundSet set = only_set(folder, albedo);
-  MaterialRequest result;
-  TextureSetRequest& request = result.maps;
+TextureSetRequest request_of(const fs::path& folder, const FoundSet& set) {
+  TextureSetRequest request;
   const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {
     return add_map(set, folder, parameter, wanted, request);
   };
   if (is_albedo(set)) {
-    result.is_albedo = true;
     if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
     request.parameters[Parameter::kSpecular].source = ConstantValues{0.0f};
     request.parameters[Parameter::kRoughness].source = ConstantValues{1.0f};
     request.convention = RoughnessEncoding::kAlpha;
-    return result;
+    return request;
   }
   if (!add(Parameter::kRoughness, is_roughness))
     throw input_error(folder.string() + ": contains no roughness map");
   if (add(Parameter::kSpecular, is_specular)) {
-    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
+    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return request;
     throw input_error(folder.string() + ": contains a specular map but no diffuse map");
   }
-  result.from_metallic =
+  const bool is_metallic_set =
       add(Parameter::kMetallic, is_metallic) &&
       (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
-  if (!result.from_metallic)
+  if (!is_metallic_set)
     throw input_error(folder.string() +
                       ": requires diffuse and specular maps, or base color and metallic maps");
-  return result;
+  return request;
 }
 
 SourceParameter source_of(const SetParameter& parameter, const TextureSet& set,
@@ -118,12 +110,13 @@ TextureMaterial read_texture_material(const fs::path& folder, const std::string&
   const MapModel map_model = builtin_map_model(model);
   result.material.model = map_model.lobe;
   result.material.is_dielectric = map_model.is_dielectric;
-  const MaterialRequest request = request_of(folder, albedo);
-  result.is_albedo = request.is_albedo;
-  TextureSet set = open_texture_set(request.maps);
+  const FoundSet found_set = only_set(folder, albedo);
+  result.is_albedo = is_albedo(found_set);
+  const TextureSetRequest request = request_of(folder, found_set);
+  TextureSet set = open_texture_set(request);
   WorkflowStages stages;
   stages.target = SpecularWorkflow{};
-  if (request.from_metallic)
+  if (request.parameters.contains(Parameter::kMetallic))
     stages.source = MetallicWorkflow{};
   else
     stages.source = SpecularWorkflow{};

@@ -82,15 +82,16 @@ double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
   return static_cast<double>(std::count(used.begin(), used.end(), 1)) / static_cast<double>(used.size());
 }
 
-WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const MaterialRef& target,
-                                          const std::vector<StrokePair>& strokes) {
-  WarpDiagnostics::SharedStroke most;
+// Returns the largest overlap in either material.
+Overlap largest_overlap(const MaterialRef& source, const MaterialRef& target,
+                        const std::vector<StrokePair>& strokes) {
+  Overlap most;
   for (std::size_t k = 0; k < strokes.size(); ++k)
     for (const bool in_template : {false, true}) {
       const Overlap overlap = in_template
                                   ? largest_overlap(strokes, &StrokePair::target, k, target.texel_count())
                                   : largest_overlap(strokes, &StrokePair::source, k, source.texel_count());
-      if (overlap.share > most.overlap.share) most = {k, overlap, in_template};
+      if (overlap.share > most.share) most = overlap;
     }
   return most;
 }
@@ -115,16 +116,16 @@ void diagnose(const PointSets& sets, AppearanceMatch& match) {
 }
 
 Matched matched(const MaterialRef& source, const MaterialRef& target, const std::vector<StrokePair>& strokes,
-                const WarpOptions& options) {
+                AppearanceDistance distance) {
   require_valid(source, target, strokes);
-  const FeaturePair features = appearance_features(source, target, options.distance);
+  const FeaturePair features = appearance_features(source, target, distance);
   const AppearanceSpace from_space = appearance_space(source, features.source);
   const AppearanceSpace to_space = appearance_space(target, features.target);
 
   Matched result;
   AppearanceMatch& match = result.match;
   WarpDiagnostics& found = match.diagnostics;
-  found.shared = most_shared(source, target, strokes);
+  found.shared = largest_overlap(source, target, strokes);
   for (std::size_t k = 0; k < strokes.size(); ++k) found.strokes.push_back(stroke_name(strokes, k));
   found.source_dimensions = dimension_of(from_space);
   found.target_dimensions = dimension_of(to_space);
@@ -164,18 +165,18 @@ WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32
 }  // namespace
 
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
-                                  const std::vector<StrokePair>& strokes, const WarpOptions& options) {
-  return matched(source, target, strokes, options).match;
+                                  const std::vector<StrokePair>& strokes, AppearanceDistance distance) {
+  return matched(source, target, strokes, distance).match;
 }
 
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
-                 const std::vector<StrokePair>& strokes, const WarpOptions& options) {
-  Matched matched_texels = matched(source, target, strokes, options);
+                 const std::vector<StrokePair>& strokes, AppearanceDistance distance, bool exact) {
+  Matched matched_texels = matched(source, target, strokes, distance);
   WarpFit fit{std::move(matched_texels.match), {}};
   fit.compiled.coordinates = std::get<AppearanceCoordinates>(fit.source.coordinates);
   fit.compiled.table =
-      compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
-                    reduced(target, matched_texels.target.texels), options.exact);
+      compile_table(fit.warp, matched_texels.source_positions, nearest_texel(matched_texels.target_positions),
+                    reduced(target, matched_texels.target.texels), exact);
   return fit;
 }
 
@@ -188,7 +189,7 @@ std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const Mate
   Points images = images_of(match.warp, positions_of(match.source, source));
   for (Eigen::Index i = 0; i < images.rows(); ++i)
     if (!images.row(i).allFinite()) images.row(i).setZero();
-  std::vector<std::uint32_t> texels = NearestTexel(goal).find(images);
+  std::vector<std::uint32_t> texels = nearest_texel(goal)(images);
   for (std::size_t i = 0; i < texels.size(); ++i)
     if (!source.takes_part(i)) texels[i] = kNoTexel;
   return texels;
@@ -215,10 +216,10 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
   if (found.coordinates_error > 0.03)
     warnings.push_back("positions in appearance space have an error of " + percent(found.coordinates_error) +
                        " of the spread: the distance is approximated poorly for these materials");
-  if (found.shared.overlap.share > 0.5)
-    warnings.push_back(found.strokes[found.shared.overlap.other] + " covers " +
-                       percent(found.shared.overlap.share) + " of " + found.strokes[found.shared.stroke] +
-                       " in the " + (found.shared.in_template ? "template" : "source") +
+  if (found.shared.share > 0.5)
+    warnings.push_back(found.strokes[found.shared.other] + " covers " + percent(found.shared.share) + " of " +
+                       found.strokes[found.shared.stroke] + " in the " +
+                       (found.shared.in_template ? "template" : "source") +
                        ": both mark the same region there (erase one of them)");
   if (found.source_dimensions < found.target_dimensions)
     warnings.push_back("the source varies in " + std::to_string(found.source_dimensions) +

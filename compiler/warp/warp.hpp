@@ -11,11 +11,6 @@
 
 namespace remap {
 
-struct WarpOptions {
-  AppearanceDistance distance = AppearanceDistance::kRelative;
-  bool exact = false;  // results are texels of the template, not blends
-};
-
 // A WarpDiagnostics holds figures that help a user to improve strokes.
 struct WarpDiagnostics {
   int source_dimensions = 0, target_dimensions = 0;  // number of dimensions that each material needs
@@ -33,12 +28,7 @@ struct WarpDiagnostics {
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance
   std::vector<std::string> strokes;                      // names of the strokes, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
-  // A SharedStroke is the stroke that another stroke covers most, in either material.
-  struct SharedStroke {
-    std::size_t stroke = 0;  // index of the stroke
-    Overlap overlap;
-    bool in_template = false;
-  } shared;
+  Overlap shared;                                        // the largest overlap in either material
 };
 
 // An AppearanceMatch holds the positions of the texels of both materials, and the warp between the positions.
@@ -53,7 +43,8 @@ struct AppearanceMatch {
 // other texels evenly spread: at most 2^16 of the source and 2^18 of the template. Throws the errors of
 // require_valid(), appearance_features() and appearance_space().
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
-                                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
+                                  const std::vector<StrokePair>& strokes,
+                                  AppearanceDistance distance = AppearanceDistance::kRelative);
 
 // A WarpFit is a match of two parametric materials with its compiled converter.
 struct WarpFit : AppearanceMatch {
@@ -63,9 +54,11 @@ struct WarpFit : AppearanceMatch {
   }
 };
 
-// Takes 0.12 s for 512^2 texels in two dimensions, 0.14 s in three.
+// With `exact`, results are texels of the template, not blends. Takes 0.12 s for 512^2 texels in two
+// dimensions, 0.14 s in three.
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
-                 const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
+                 const std::vector<StrokePair>& strokes,
+                 AppearanceDistance distance = AppearanceDistance::kRelative, bool exact = false);
 
 // Returns, for every source texel, the template texel that is closest to its image (for `--copy` and tests).
 // Texels that are not finite get kNoTexel.

@@ -167,7 +167,7 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {
   const std::vector<std::uint32_t> near = nodes_around(positions, table);
-  const std::vector<std::uint32_t> found = nearest.find(images(near, Eigen::all));
+  const std::vector<std::uint32_t> found = nearest(images(near, Eigen::all));
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(images.rows()), kUnknown);
   for (std::size_t i = 0; i < near.size(); ++i) texels[near[i]] = found[i];
   spread(texels, near, table.nodes);

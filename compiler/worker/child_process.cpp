@@ -147,12 +147,12 @@ ChildProcess::ChildProcess(std::string script) : mark_(new_mark()) {
 ChildProcess::~ChildProcess() {
   {
     const std::lock_guard lock(mutex_);
-    close_end(&pipes_.input);
+    close_end(&input_);
     leave_at(Clock::now() + kGrace);
   }
   watcher_.join();
-  close_end(&pipes_.output);
-  close_end(&pipes_.errors);
+  close_end(&output_);
+  close_end(&errors_);
 }
 
 void ChildProcess::start_and_watch(const std::string& script) {
@@ -167,7 +167,9 @@ void ChildProcess::start_and_watch(const std::string& script) {
     failure = id_ < 0 ? errno : 0;
     if (id_ > 0) ::setpgid(id_, id_);  // both processes call this; the first call has the effect
     for (int end : {input.read, output.write, errors.write}) ::close(end);
-    pipes_ = {input.write, output.read, errors.read};
+    input_ = input.write;
+    output_ = output.read;
+    errors_ = errors.read;
   } catch (const Error&) {
     failure = errno != 0 ? errno : EMFILE;
   }
@@ -182,7 +184,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
 
 // Reads both streams until the process has ended or must be ended.
 void ChildProcess::watch() {
-  std::array<pollfd, 2> streams = {pollfd{pipes_.output, POLLIN, 0}, pollfd{pipes_.errors, POLLIN, 0}};
+  std::array<pollfd, 2> streams = {pollfd{output_, POLLIN, 0}, pollfd{errors_, POLLIN, 0}};
   std::vector<char> buffer(1 << 16);
   bool gone = false;
   for (;;) {
@@ -193,7 +195,7 @@ void ChildProcess::watch() {
       const ssize_t count = ::read(stream.fd, buffer.data(), buffer.size());
       if (count > 0) {
         const std::string_view bytes(buffer.data(), static_cast<std::size_t>(count));
-        stream.fd == pipes_.output ? take_output(bytes) : take_log(bytes);
+        stream.fd == output_ ? take_output(bytes) : take_log(bytes);
         read_something = true;
       } else if (count == 0) {
         stream.fd = -1;  // poll ignores negative descriptors
@@ -269,7 +271,7 @@ bool ChildProcess::write_line(const std::string& line) {
   const std::string bytes = line + "\n";
   std::size_t written = 0;
   while (written < bytes.size()) {
-    const ssize_t count = ::write(pipes_.input, bytes.data() + written, bytes.size() - written);
+    const ssize_t count = ::write(input_, bytes.data() + written, bytes.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return false;
     written += static_cast<std::size_t>(count);

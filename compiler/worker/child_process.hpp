@@ -58,10 +58,6 @@ class ChildProcess {
   static constexpr std::chrono::milliseconds kGrace{2000};
 
  private:
-  struct Pipes {
-    int input = -1, output = -1, errors = -1;  // this program's ends of the pipes
-  };
-
   void start_and_watch(const std::string& script);
   void watch();
   void end_if_due();
@@ -71,7 +67,7 @@ class ChildProcess {
   void take_log(std::string_view bytes);
   void reap();
 
-  Pipes pipes_;
+  int input_ = -1, output_ = -1, errors_ = -1;  // this program's ends of the pipes
   pid_t id_ = -1;
   std::string mark_;  // REMAP_CHILD=...
   std::thread watcher_;

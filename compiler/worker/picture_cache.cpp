@@ -64,33 +64,35 @@ fs::path PictureCache::file_of(const PictureRequest& request) const {
   return folder_ / name.substr(0, 2) / (name + ".picture");
 }
 
-PictureCache::Found PictureCache::find(const PictureRequest& request) const {
+std::optional<Image> PictureCache::find(const PictureRequest& request, std::string& damage) const {
   const fs::path path = file_of(request);
   std::error_code failure;
-  if (!fs::is_regular_file(path, failure)) return {};
+  if (!fs::is_regular_file(path, failure)) return std::nullopt;
   const std::string line = key_opening_ + request.text + "\n";
   const std::size_t expected = line.size() + kChecksumBytes + picture_bytes(request);
   const auto damaged = [&](const std::string& what) {
-    return Found{std::nullopt, path.string() + ": " + what};
+    damage = path.string() + ": " + what;
+    return std::nullopt;
   };
   std::string content;
   try {
     content = read_file(path);
   } catch (const Error& error) {
-    return {std::nullopt, error.what()};
+    damage = error.what();
+    return std::nullopt;
   }
   const std::size_t end = content.find('\n') + 1;
   if (end == 0 || content.size() < end + kChecksumBytes) return damaged("the file is cut short");
   const std::string_view picture = std::string_view(content).substr(end + kChecksumBytes);
   if (content.compare(end, kChecksumBytes, checksum_line(content.substr(0, end), picture)) != 0)
     return damaged("its checksum does not match its content");
-  if (content.compare(0, end, line) != 0) return {};  // another request with the same hash
+  if (content.compare(0, end, line) != 0) return std::nullopt;  // another request with the same hash
   if (content.size() != expected) return damaged("it has a picture of another size");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(picture_bytes(request) / sizeof(float))};
   std::memcpy(image.values.data(), picture.data(), picture.size());
   if (const std::string fault = picture_fault(image); !fault.empty()) return damaged(fault);
-  return {std::move(image), ""};
+  return image;
 }
 
 void PictureCache::keep(const PictureRequest& request, const Image& image) const {

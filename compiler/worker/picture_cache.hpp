@@ -17,13 +17,9 @@ class PictureCache {
   // `renderer` is WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // A Found is what the cache has for a request. If the file cannot be used, `image` is empty and `damage`
-  // has the reason (`FILE: its checksum does not match its content`).
-  struct Found {
-    std::optional<Image> image;
-    std::string damage;
-  };
-  Found find(const PictureRequest& request) const;
+  // Returns the picture of a request, if the cache has it. If its file cannot be used, `damage` receives the
+  // reason (`FILE: its checksum does not match its content`).
+  std::optional<Image> find(const PictureRequest& request, std::string& damage) const;
 
   // Throws kOutput if the picture cannot be written.
   void keep(const PictureRequest& request, const Image& image) const;

@@ -19,8 +19,7 @@ void add_renderer_options(Command& app, RendererOptions& options) {
       "run on others (default: in memory)");
   app.add_option("--worker-processes", options.settings.processes,
                  "Processes of one worker at once, at most; 0: one per core");
-  app.add_option("--worker-timeout", options.settings.limits.seconds,
-                 "Seconds to wait for an answer of a worker")
+  app.add_option("--worker-timeout", options.settings.seconds, "Seconds to wait for an answer of a worker")
       ->positive();
   app.add_option("--cache FOLDER", options.cache,
                  "Folder for pictures of workers (default: remap/pictures in the user's cache)");
@@ -30,7 +29,7 @@ void add_renderer_options(Command& app, RendererOptions& options) {
 WorkerSettings worker_settings(const RendererOptions& options) {
   WorkerSettings settings = options.settings;
   if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
-  settings.limits.cancelled = &interruption();
+  settings.cancelled = &interruption();
   settings.on_start = watch_interruptions;
   settings.on_warning = [](const std::string& message) { print_message("remapc", "warning: " + message); };
   return settings;

@@ -46,10 +46,10 @@ std::string script_of(const WorkerEntry& entry) {
 
 }  // namespace
 
-Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path files)
-    : entry_(entry), limits_(limits), files_(std::move(files)) {
+Worker::Worker(const WorkerEntry& entry, const WorkerSettings& settings, std::filesystem::path files)
+    : entry_(entry), settings_(settings), files_(std::move(files)) {
   process_ = std::make_unique<ChildProcess>(script_of(entry_));
-  const std::string answer = ask(describe_line(++last_id_, limits_.threads), "describe");
+  const std::string answer = ask(describe_line(++last_id_, settings_.threads), "describe");
   try {
     description_ = read_description(answer, last_id_, entry_.name, context("describe"));
   } catch (const Error& error) {
@@ -87,7 +87,7 @@ void Worker::fail(const std::string& shown, const std::string& what) {
 std::string Worker::next_answer(const std::string& shown) {
   const auto start = ChildProcess::Clock::now();
   const auto deadline =
-      start + duration_cast<ChildProcess::Clock::duration>(duration<double>(limits_.seconds));
+      start + duration_cast<ChildProcess::Clock::duration>(duration<double>(settings_.seconds));
   std::string line;
   for (;;) {
     const auto now = ChildProcess::Clock::now();
@@ -97,13 +97,13 @@ std::string Worker::next_answer(const std::string& shown) {
       if (is_answer(line) || has_answered_) return line;
       process_->note(line);  // a banner, so it goes to the log
     }
-    if (limits_.cancelled != nullptr && *limits_.cancelled) {
+    if (settings_.cancelled != nullptr && *settings_.cancelled) {
       process_->end();
       usable_ = false;
       throw Error(ErrorKind::kInterrupted, context(shown) + ": interrupted");
     }
     if (now >= deadline)
-      throw LostWorker(ended(shown, "no answer within " + number_text(limits_.seconds) + " s"));
+      throw LostWorker(ended(shown, "no answer within " + number_text(settings_.seconds) + " s"));
   }
 }
 

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "look/image.hpp"
@@ -22,14 +24,27 @@ struct WorkerEntry {
   std::string install;  // how to install it, shown if it does not start; may be empty
 };
 
-struct WorkerLimits {
-  double seconds = 120.0;                        // limit for one answer
-  unsigned threads = 1;                          // number of threads in each process
+// A WorkerSettings decides how workers are run and how their pictures are kept.
+struct WorkerSettings {
+  std::optional<std::filesystem::path> cache;  // if empty, every picture is rendered
+  std::filesystem::path folder;                // folder for pictures in transit; if empty, a folder in memory
+  unsigned processes = 0;  // limit of processes of one worker at once; 0: one for each core
+  double seconds = 120.0;  // limit for one answer
+  unsigned threads = 1;    // number of threads in each process
   const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
+  std::function<void()> on_picture;              // called after every picture, from any thread
+  // called before the first process starts, because processes use files that must be removed at the end
+  std::function<void()> on_start;
+  // This is called from any thread with urgent warnings: the first process that is lost, the first damaged
+  // picture of the cache, and that the cache cannot be written. The run continues.
+  std::function<void(const std::string&)> on_warning;
+  // This is the pause before a picture is rendered again after its process was lost. It doubles before the
+  // third attempt.
+  std::chrono::milliseconds pause{1000};
 };
 
-// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time. This
-// is not the fault of the request, so another process may answer it.
+// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time.
+// This is not the fault of the request, so another process may answer it.
 class LostWorker : public Error {
  public:
   explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}
@@ -40,20 +55,20 @@ class Worker {
   // Starts the process and asks for its description. Pictures are exchanged through files whose names begin
   // with `files` and belong to this worker. Throws kInput if the process cannot be started or violates the
   // protocol, and LostWorker if it does not answer.
-  Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path files);
+  Worker(const WorkerEntry& entry, const WorkerSettings& settings, std::filesystem::path files);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   const WorkerDescription& description() const { return description_; }
 
-  // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the picture
-  // has forbidden values (picture_fault.hpp). After an answer with an error is_usable() stays true and the
-  // worker can be asked again.
+  // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the
+  // picture has forbidden values (picture_fault.hpp). After an answer with an error is_usable() stays true
+  // and the worker can be asked again.
   //
-  // Every message about a worker names the worker and the request. It has the end of the worker's log if the
-  // worker was ended, and is cut to remap::kLongestMessage. So no text of a worker makes it longer, and no
-  // control character enters it.
+  // Every message about a worker names the worker and the request. It has the end of the worker's log if
+  // the worker was ended, and is cut to remap::kLongestMessage. So no text of a worker makes it longer, and
+  // no control character enters it.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 
@@ -71,7 +86,7 @@ class Worker {
   Image read_picture(const PictureRequest& request, const std::filesystem::path& path);
 
   const WorkerEntry entry_;
-  const WorkerLimits limits_;
+  const WorkerSettings settings_;
   const std::filesystem::path files_;
   std::unique_ptr<ChildProcess> process_;
   WorkerDescription description_;

@@ -23,7 +23,7 @@ unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency())
 // Replaces 0 by a suitable number of processes for this machine, and of threads in each.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
-  settings.limits.threads = std::max(1u, core_count() / settings.processes);
+  settings.threads = std::max(1u, core_count() / settings.processes);
   return settings;
 }
 
@@ -87,7 +87,7 @@ WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
 WorkerRenderer::~WorkerRenderer() = default;
 
 std::unique_ptr<Worker> WorkerRenderer::start() const {
-  return std::make_unique<Worker>(entry_, settings_.limits, folder_.path() / std::to_string(next_file_++));
+  return std::make_unique<Worker>(entry_, settings_, folder_.path() / std::to_string(next_file_++));
 }
 
 std::unique_ptr<Worker> WorkerRenderer::start_another() const {
@@ -143,7 +143,7 @@ void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (lost_++ == 0) warn(std::string(lost.what()) + " (another process renders the picture)");
   const auto until = std::chrono::steady_clock::now() + losses * settings_.pause;
   do {
-    if (settings_.limits.cancelled != nullptr && *settings_.limits.cancelled)
+    if (settings_.cancelled != nullptr && *settings_.cancelled)
       throw Error(ErrorKind::kInterrupted, "worker " + entry_.name + ": interrupted");
     std::this_thread::sleep_for(std::min<std::chrono::milliseconds>(settings_.pause, kPauseGlance));
   } while (std::chrono::steady_clock::now() < until);
@@ -170,10 +170,10 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
 
 std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const {
   if (!cache_) return std::nullopt;
-  PictureCache::Found found = cache_->find(request);
-  if (!found.damage.empty() && damaged_++ == 0)
-    warn_of_cache(found.damage + " (the picture is rendered again)");
-  return std::move(found.image);
+  std::string damage;
+  std::optional<Image> image = cache_->find(request, damage);
+  if (!damage.empty() && damaged_++ == 0) warn_of_cache(damage + " (the picture is rendered again)");
+  return image;
 }
 
 void WorkerRenderer::keep(const PictureRequest& request, const Image& image) const {

@@ -21,23 +21,6 @@
 
 namespace remap {
 
-// A WorkerSettings decides how workers are run and how their pictures are kept.
-struct WorkerSettings {
-  std::optional<std::filesystem::path> cache;  // if empty, every picture is rendered
-  std::filesystem::path folder;                // folder for pictures in transit; if empty, a folder in memory
-  unsigned processes = 0;  // limit of processes of one worker at once; 0: one for each core
-  WorkerLimits limits;
-  std::function<void()> on_picture;  // called after every picture, from any thread
-  // called before the first process starts, because processes use files that must be removed at the end
-  std::function<void()> on_start;
-  // This is called from any thread with urgent warnings: the first process that is lost, the first damaged
-  // picture of the cache, and that the cache cannot be written. The run continues.
-  std::function<void(const std::string&)> on_warning;
-  // This is the pause before a picture is rendered again after its process was lost. It doubles before the
-  // third attempt.
-  std::chrono::milliseconds pause{1000};
-};
-
 // A PictureCount holds counts and costs of the pictures that a renderer has returned so far.
 struct PictureCount {
   std::size_t rendered = 0;

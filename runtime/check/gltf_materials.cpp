@@ -119,40 +119,18 @@ bool changes_nothing(std::string_view extension, SpanValue extensions) {
   return is_off(extension, value);
 }
 
-// A WholeFile holds a whole file in memory.
-class WholeFile final : public ByteSource {
- public:
-  explicit WholeFile(const fs::path& file) : bytes_(read_file(file, kLargestAsset)) {}
-  std::uint64_t size() const override { return bytes_.size(); }
-  std::string read(std::uint64_t begin, std::size_t count) const override {
-    return bytes_.substr(begin, count);
-  }
-
- private:
-  std::string bytes_;
-};
-
-class FilesBeside final : public AssetFiles {
- public:
-  explicit FilesBeside(fs::path folder) : folder_(std::move(folder)) {}
-  std::unique_ptr<ByteSource> open(const std::string& path) const override {
-    return std::make_unique<WholeFile>(folder_ / path);
-  }
-
- private:
-  fs::path folder_;
-};
-
 class GltfMaterials {
  public:
   GltfMaterials(const fs::path& file, FoundMaterials& found)
       : file_(file),
         found_(found),
-        source_(file),
-        beside_(file.parent_path()),
+        source_(read_file(file, kLargestAsset)),
         container_(read_container(source_, display_path(file))),
         json_(container_.json, display_path(file)),
-        bytes_(json_, container_, source_, beside_),
+        bytes_(json_, container_, source_,
+               [folder = file.parent_path()](const std::string& path) {
+                 return std::make_unique<MemorySource>(read_file(folder / path, kLargestAsset));
+               }),
         textures_(json_.root()["textures"].entries()),
         images_(json_.root()["images"].entries()) {}
 
@@ -286,8 +264,7 @@ class GltfMaterials {
 
   const fs::path& file_;
   FoundMaterials& found_;
-  WholeFile source_;
-  FilesBeside beside_;
+  MemorySource source_;
   GltfContainer container_;
   SpannedJson json_;
   GltfBytes bytes_;

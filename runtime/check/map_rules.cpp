@@ -46,18 +46,17 @@ NormalShares normals_of(const std::vector<const Plane*>& rgb) {
   return normal_shares({*rgb[0], *rgb[1], *rgb[2]});
 }
 
-// A Curl measures how much slopes differ from the slopes of a surface, with green up and with green down. On
-// a surface, the slope along x changes along y as the slope along y changes along x.
-struct Curl {
-  double up = 0.0, down = 0.0;
-};
-Curl curl_of(const std::vector<const Plane*>& rgb, int columns, int rows) {
+enum class Orientation { kUnknown, kOpenGl, kDirectX };
+
+// Returns the orientation in which the slopes of normals belong to a surface. On a surface, the slope along x
+// changes along y as the slope along y changes along x.
+Orientation seen_orientation(const std::vector<const Plane*>& rgb, int columns, int rows) {
   const auto slopes = [&](std::size_t i) {
     const double x = 2.0 * (*rgb[0])[i] - 1.0, y = 2.0 * (*rgb[1])[i] - 1.0;
     const double z = std::max(0.1, 2.0 * static_cast<double>((*rgb[2])[i]) - 1.0);
     return std::array{-x / z, y / z};  // slopes along columns and, for green up, down the rows
   };
-  Curl curl;
+  double up = 0.0, down = 0.0;  // differences from the slopes of a surface, with green up and with green down
   for (int y = 1; y + 1 < rows; ++y)
     for (int x = 1; x + 1 < columns; ++x) {
       const auto at = [&](int dx, int dy) {
@@ -65,13 +64,15 @@ Curl curl_of(const std::vector<const Plane*>& rgb, int columns, int rows) {
                       static_cast<std::size_t>(x + dx));
       };
       const double across = at(0, 1)[0] - at(0, -1)[0], along = at(1, 0)[1] - at(-1, 0)[1];
-      curl.up += (across - along) * (across - along);
-      curl.down += (across + along) * (across + along);
+      up += (across - along) * (across - along);
+      down += (across + along) * (across + along);
     }
-  return curl;
+  // least ratio of the differences; noise and rounding add the same amount to both
+  constexpr double kClear = 2.0;
+  return down > kClear * up   ? Orientation::kOpenGl
+         : up > kClear * down ? Orientation::kDirectX
+                              : Orientation::kUnknown;
 }
-
-enum class Orientation { kUnknown, kOpenGl, kDirectX };
 
 Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const GltfConsumer* reader) {
   if (material.kind == MaterialKind::kGltf) return Orientation::kOpenGl;
@@ -416,12 +417,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     const TexelSample& texels = *material.texels(use);
     MaterialUse green = use;
     green.channels = Channels::kGreen;
-    const Curl curl = curl_of(rgb, texels.columns, texels.rows);
-    // least ratio of the curls; noise and rounding add the same amount to both
-    constexpr double kClear = 2.0;
-    const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
-                             : curl.up > kClear * curl.down ? Orientation::kDirectX
-                                                            : Orientation::kUnknown;
+    const Orientation seen = seen_orientation(rgb, texels.columns, texels.rows);
     if (seen == Orientation::kUnknown || seen == name) return;
     const auto text = [](Orientation orientation) {
       return std::string(orientation == Orientation::kOpenGl ? "OpenGL (green up)" : "DirectX (green down)");

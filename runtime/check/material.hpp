@@ -71,12 +71,6 @@ struct GltfStatements {
   bool has_volume = false;  // glTF has no place for the index of refraction of a volume or of dispersion
 };
 
-// An Exponent is the Ns of a material in a Wavefront MTL file.
-struct Exponent {
-  std::string material;
-  double value = 0.0;  // the value of Ns
-};
-
 enum class MaterialKind { kFolder, kGltf, kMtl };
 
 struct CheckedMaterial {
@@ -89,7 +83,7 @@ struct CheckedMaterial {
   std::vector<MaterialUse> unread;  // uses that a factor of 0 turns off, so no rule applies to them
   GltfStatements gltf;
   std::vector<std::string> failures;  // statements of MTL that a conversion refuses
-  std::vector<Exponent> exponents;    // different exponents of an MTL file, each with its first material
+  std::vector<double> exponents;      // each Ns of an MTL file
 
   // Reads the texels of all maps. Returns a message for each image that cannot be read.
   std::vector<std::string> read_maps();

@@ -16,21 +16,18 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-struct MapLine {
-  std::string_view word;  // word in lower case
-  Role role;
-};
-constexpr std::array<MapLine, 11> kMapLines = {{{"map_kd", Role::kDiffuse},
-                                                {"map_ks", Role::kSpecular},
-                                                {"map_ns", Role::kOther},
-                                                {"map_pr", Role::kRoughness},
-                                                {"map_pm", Role::kMetallic},
-                                                {"map_d", Role::kOpacity},
-                                                {"map_ke", Role::kEmissive},
-                                                {"map_bump", Role::kHeight},
-                                                {"bump", Role::kHeight},
-                                                {"norm", Role::kNormal},
-                                                {"map_kn", Role::kNormal}}};
+// These are the words of lines with maps, in lower case.
+constexpr NamedValues<Role, 11> kMapLines = {{{Role::kDiffuse, "map_kd"},
+                                              {Role::kSpecular, "map_ks"},
+                                              {Role::kOther, "map_ns"},
+                                              {Role::kRoughness, "map_pr"},
+                                              {Role::kMetallic, "map_pm"},
+                                              {Role::kOpacity, "map_d"},
+                                              {Role::kEmissive, "map_ke"},
+                                              {Role::kHeight, "map_bump"},
+                                              {Role::kHeight, "bump"},
+                                              {Role::kNormal, "norm"},
+                                              {Role::kNormal, "map_kn"}}};
 
 Channels channels_of(const MtlMap& map) {
   switch (map.channel) {
@@ -79,14 +76,15 @@ MtlSurface read_block(const MtlDocument& document, const MtlBlock& block, MtlMak
   return surface;
 }
 
-// Returns the role of a line, which depends on the maker of the file.
-Role role_of(const MapLine& line, MtlMaker maker) {
-  if (maker == MtlMaker::kText) return line.role;
+// Returns the role of a line, which depends on the maker of the file. `written` is the role in files of the
+// specification.
+Role role_of(std::string_view word, Role written, MtlMaker maker) {
+  if (maker == MtlMaker::kText) return written;
   const bool is_blender = maker != MtlMaker::kNvdiffrec;
-  if (is_blender && line.word == "map_ns") return Role::kRoughness;
-  if (is_blender && line.word == "map_refl") return Role::kMetallic;
-  if (!is_blender && line.word == "map_ks") return Role::kOther;
-  return line.role;
+  if (is_blender && word == "map_ns") return Role::kRoughness;
+  if (is_blender && word == "map_refl") return Role::kMetallic;
+  if (!is_blender && word == "map_ks") return Role::kOther;
+  return written;
 }
 
 }  // namespace
@@ -95,7 +93,7 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
   const std::string text = mtl_text(MemorySource(read_file(file)), display_path(file));
   const MtlDocument document(text, display_path(file));
   const MtlMaker maker = maker_of(document);
-  std::vector<Exponent> exponents;
+  std::vector<double> exponents;
   const std::size_t first = found.materials.size();
   for (const MtlBlock& block : document.materials()) {
     CheckedMaterial& material = found.materials.emplace_back();
@@ -110,12 +108,12 @@ void add_mtl(const fs::path& file, FoundMaterials& found) {
       const std::string word = document.word(statement);
       const std::vector<TextSpan> words = document.words(statement);
       if (maker == MtlMaker::kText && word == "ns" && !words.empty() && shines)
-        if (const auto value = mtl_number(document.raw(words.front()))) exponents.push_back({name, *value});
-      const auto line = std::ranges::find(kMapLines, word, &MapLine::word);
-      if (line == kMapLines.end()) continue;
+        if (const auto value = mtl_number(document.raw(words.front()))) exponents.push_back(*value);
+      const std::optional<Role> written = value_named(kMapLines, word);
+      if (!written) continue;
       if (const MtlMap map = read_mtl_map(document, i); !map.file.empty())
-        add_map(map, word, role_of(*line, maker),
-                map.strength != 0.0 && (shines || line->role != Role::kSpecular), material);
+        add_map(map, word, role_of(word, *written, maker),
+                map.strength != 0.0 && (shines || *written != Role::kSpecular), material);
     }
   }
   if (first < found.materials.size()) found.materials[first].exponents = std::move(exponents);

@@ -175,11 +175,11 @@ void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const 
                     std::vector<MaterialFinding>& findings) {
   double largest = 0.0;
   std::size_t below_zero = 0, above_zero = 0, whole_tens = 0;
-  for (const Exponent& exponent : material.exponents) {
-    largest = std::max(largest, exponent.value);
-    below_zero += exponent.value < 0.0;
-    above_zero += exponent.value > 0.0;
-    whole_tens += exponent.value > 0.0 && std::fmod(exponent.value, 5.0) == 0.0;
+  for (const double exponent : material.exponents) {
+    largest = std::max(largest, exponent);
+    below_zero += exponent < 0.0;
+    above_zero += exponent > 0.0;
+    whole_tens += exponent > 0.0 && std::fmod(exponent, 5.0) == 0.0;
   }
   if (below_zero > 0)
     findings.push_back({rule.name, Confidence::kLikely, material.path.string(), "",

@@ -43,21 +43,19 @@ std::optional<std::uint32_t> hex_at(std::string_view text, std::size_t at) {
 bool is_high_surrogate(std::uint32_t code) { return code >= 0xd800 && code <= 0xdbff; }
 bool is_low_surrogate(std::uint32_t code) { return code >= 0xdc00 && code <= 0xdfff; }
 
-// An EscapedCode holds the code point of the escape \uXXXX and the place after it. It is missing if half of a
-// surrogate pair occurs without the other half.
-struct EscapedCode {
-  std::uint32_t code = 0;
-  std::size_t end = 0;
-};
-std::optional<EscapedCode> escaped_code(std::string_view text, std::size_t at) {
+// Returns the code point of the escape \uXXXX, or of two escapes that form a surrogate pair. Returns nothing
+// if half of a pair occurs without the other half.
+std::optional<std::uint32_t> escaped_code(std::string_view text, std::size_t at) {
   const auto first = hex_at(text, at + 2);
   if (!first || is_low_surrogate(*first)) return std::nullopt;
-  if (!is_high_surrogate(*first)) return EscapedCode{*first, at + 6};
+  if (!is_high_surrogate(*first)) return *first;
   if (text.substr(at + 6, 2) != "\\u") return std::nullopt;
   const auto second = hex_at(text, at + 8);
   if (!second || !is_low_surrogate(*second)) return std::nullopt;
-  return EscapedCode{0x10000 + ((*first - 0xd800) << 10) + (*second - 0xdc00), at + 12};
+  return 0x10000 + ((*first - 0xd800) << 10) + (*second - 0xdc00);
 }
+
+std::size_t escape_length(std::uint32_t code) { return code < 0x10000 ? 6 : 12; }
 
 // Returns the character that a short escape means, or 0 if there is none.
 char short_escape(char c) {
@@ -73,9 +71,9 @@ std::string unescaped(std::string_view raw) {
     if (raw[i] != '\\') {
       result += raw[i++];
     } else if (raw[i + 1] == 'u') {
-      const EscapedCode escaped = escaped_code(raw, i).value_or(EscapedCode{0xfffd, i + 6});
-      result += utf8_of(escaped.code);
-      i = escaped.end;
+      const std::uint32_t code = escaped_code(raw, i).value_or(0xfffd);
+      result += utf8_of(code);
+      i += escape_length(code);
     } else {
       result += short_escape(raw[i + 1]);
       i += 2;
@@ -246,9 +244,9 @@ class SpanScanner {
   void scan_escape() {
     const char letter = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
     if (letter == 'u') {
-      const auto escaped = escaped_code(text_, at_);
-      if (!escaped) fail("an escape that is not a character");
-      at_ = escaped->end;
+      const auto code = escaped_code(text_, at_);
+      if (!code) fail("an escape that is not a character");
+      at_ += escape_length(*code);
     } else {
       if (short_escape(letter) == '\0') fail("an unknown escape");
       at_ += 2;
@@ -274,7 +272,7 @@ SpanValue SpannedJson::value(std::size_t index) const noexcept { return {this, i
 
 std::string SpanValue::key() const {
   const TextSpan span = key_span();
-  return unescaped(json_->text_.substr(span.begin, span.end - span.begin));
+  return unescaped(span.in(json_->text_));
 }
 
 bool SpanValue::has_key(std::string_view key) const {

@@ -15,6 +15,8 @@ namespace remap {
 // A TextSpan holds the bytes [begin, end) of a text.
 struct TextSpan {
   std::size_t begin = 0, end = 0;
+
+  std::string_view in(std::string_view text) const noexcept { return text.substr(begin, end - begin); }
   bool operator==(const TextSpan&) const = default;
 };
 

@@ -42,21 +42,27 @@ void watch(int signal, unsigned flags, void (*note)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+std::optional<struct stat> status_of(int descriptor) {
+  struct stat found {};
+  if (::fstat(descriptor, &found) != 0) return std::nullopt;
+  return found;
+}
+
 // Returns the user that owns new files of a folder. On some network storage this is not the current user.
 uid_t owner_of_new_files(int folder) {
   const std::string name = ".unfinished-owner-" + random_letters();
   const OpenFile file(
       ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
-  struct stat found {};
-  const bool is_known = file.is_open() && ::fstat(file.get(), &found) == 0;
-  if (file.is_open()) ::unlinkat(folder, name.c_str(), 0);
-  return is_known ? found.st_uid : ::geteuid();
+  if (!file.is_open()) return ::geteuid();
+  const auto found = status_of(file.get());
+  ::unlinkat(folder, name.c_str(), 0);
+  return found ? found->st_uid : ::geteuid();
 }
 
 bool is_own(int file, int folder) {
-  struct stat found {};
-  if (::fstat(file, &found) != 0 || !S_ISREG(found.st_mode) || found.st_nlink > 1) return false;
-  return found.st_uid == ::geteuid() || found.st_uid == owner_of_new_files(folder);
+  const auto found = status_of(file);
+  if (!found || !S_ISREG(found->st_mode) || found->st_nlink > 1) return false;
+  return found->st_uid == ::geteuid() || found->st_uid == owner_of_new_files(folder);
 }
 
 }  // namespace
@@ -76,9 +82,8 @@ std::optional<FileFacts> facts_of(const fs::path& path) {
 }
 
 std::optional<FileFacts> facts_of(int descriptor) {
-  struct stat found {};
-  if (::fstat(descriptor, &found) != 0) return std::nullopt;
-  return facts_of(found);
+  const auto found = status_of(descriptor);
+  return found ? std::optional(facts_of(*found)) : std::nullopt;
 }
 
 int open_to_read(const fs::path& path) {

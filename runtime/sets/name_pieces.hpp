@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/json_spans.hpp"
+
 namespace remap {
 
 inline bool is_separator(char c) noexcept { return c == '_' || c == '-' || c == '.' || c == ' '; }
@@ -22,13 +24,8 @@ inline std::string lower(std::string_view text) {
   return result;
 }
 
-// A NamePiece is the bytes [begin, end) of a name between two separators. A piece is never empty.
-struct NamePiece {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-
-  std::string_view in(std::string_view name) const noexcept { return name.substr(begin, end - begin); }
-};
+// A NamePiece is the part of a name between two separators. A piece is never empty.
+using NamePiece = TextSpan;
 
 inline std::vector<NamePiece> name_pieces(std::string_view name) {
   std::vector<NamePiece> pieces;

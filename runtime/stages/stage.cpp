@@ -2,8 +2,28 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace remap {
+namespace {
+
+class FunctionStage final : public Stage {
+ public:
+  explicit FunctionStage(std::function<void(Block& block)> run) : run_(std::move(run)) {}
+  std::size_t run(Block& block, std::uint8_t*) const override {
+    run_(block);
+    return 0;
+  }
+
+ private:
+  std::function<void(Block& block)> run_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Stage> make_stage(std::function<void(Block& block)> run) {
+  return std::make_shared<FunctionStage>(std::move(run));
+}
 
 template <typename Float>
 Block::Parameters Block::parameters_of(const MaterialRows<Float>& rows) {

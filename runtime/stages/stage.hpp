@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -85,6 +86,10 @@ class Stage {
  protected:
   Stage() = default;
 };
+
+// Returns a stage without a domain and without a test of its own, which calls `run`. Many threads may call
+// it.
+std::shared_ptr<const Stage> make_stage(std::function<void(Block& block)> run);
 
 // Runs all stages over the block. Counts and flags the texels that are outside for any of them.
 std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Block& block,

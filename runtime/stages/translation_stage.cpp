@@ -79,49 +79,40 @@ Values defaults_of(Surface surface) {
   return values;
 }
 
-class TranslationStage final : public Stage {
- public:
-  explicit TranslationStage(const SurfaceTranslation& translation)
-      : translation_(translation), defaults_(defaults_of(translation.source)) {}
-
-  std::size_t run(Block& block, std::uint8_t*) const override {
-    std::vector<Row<const float>> sources;
-    std::vector<Row<float>> targets;
-    std::size_t channel = 0;
-    for (const SurfaceInput& input : inputs_of(translation_.source)) {
-      if (input.parameter && block.has(*input.parameter))
-        for (std::size_t c = 0; c < input.channels; ++c)
-          sources.push_back({block.color(*input.parameter)[c], channel + c});
-      channel += input.channels;
-    }
-    channel = 0;
-    for (const SurfaceInput& input : inputs_of(translation_.target)) {
-      if (input.parameter && block.is_wanted(*input.parameter)) {
-        const auto rows = block.make_color(*input.parameter, input.channels);
-        for (std::size_t c = 0; c < input.channels; ++c) targets.push_back({rows[c], channel + c});
-      }
-      channel += input.channels;
-    }
-    const SurfaceLink from = link_of(translation_.source), to = link_of(translation_.target);
-    Values in = defaults_, out;
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      for (const auto& source : sources) in[source.channel] = source.values[i];
-      to.from_hub(from.to_hub(in.data()), out.data());
-      for (const auto& target : targets) target.values[i] = out[target.channel];
-    }
-    return 0;
-  }
-
- private:
-  template <typename Float>
-  struct Row {
-    Float* values;
-    std::size_t channel;  // among all channels of the model
-  };
-
-  SurfaceTranslation translation_;
-  Values defaults_;
+// A Row is one channel of an input in the block.
+template <typename Float>
+struct Row {
+  Float* values;
+  std::size_t channel;  // among all channels of the model
 };
+
+// Translates the texels of a block. Inputs of the source that it lacks have the values of `defaults`.
+void translate(const SurfaceTranslation& translation, const Values& defaults, Block& block) {
+  std::vector<Row<const float>> sources;
+  std::vector<Row<float>> targets;
+  std::size_t channel = 0;
+  for (const SurfaceInput& input : inputs_of(translation.source)) {
+    if (input.parameter && block.has(*input.parameter))
+      for (std::size_t c = 0; c < input.channels; ++c)
+        sources.push_back({block.color(*input.parameter)[c], channel + c});
+    channel += input.channels;
+  }
+  channel = 0;
+  for (const SurfaceInput& input : inputs_of(translation.target)) {
+    if (input.parameter && block.is_wanted(*input.parameter)) {
+      const auto rows = block.make_color(*input.parameter, input.channels);
+      for (std::size_t c = 0; c < input.channels; ++c) targets.push_back({rows[c], channel + c});
+    }
+    channel += input.channels;
+  }
+  const SurfaceLink from = link_of(translation.source), to = link_of(translation.target);
+  Values in = defaults, out;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    for (const auto& source : sources) in[source.channel] = source.values[i];
+    to.from_hub(from.to_hub(in.data()), out.data());
+    for (const auto& target : targets) target.values[i] = out[target.channel];
+  }
+}
 
 // Differences below this are rounding, which no picture shows.
 constexpr float kSame = 1e-6f;
@@ -261,9 +252,11 @@ void SurfaceTranslation::run(const float* source_values, float* target_values) c
 
 std::unique_ptr<Converter> make_translation_converter(const SurfaceTranslation& translation,
                                                       ConverterInfo ends) {
-  return std::make_unique<Converter>(std::move(ends), parameters_of(translation.source),
-                                     parameters_of(translation.target),
-                                     StageList{std::make_shared<TranslationStage>(translation)});
+  return std::make_unique<Converter>(
+      std::move(ends), parameters_of(translation.source), parameters_of(translation.target),
+      StageList{make_stage([translation, defaults = defaults_of(translation.source)](Block& block) {
+        translate(translation, defaults, block);
+      })});
 }
 
 TranslationEffect effect_of(const SurfaceTranslation& translation, const GivenInputs& given) {

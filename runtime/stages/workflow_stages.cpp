@@ -16,78 +16,40 @@ using Colors = std::array<const float*, 3>;
 
 float clamped(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
-class ToSpecular final : public Stage {
- public:
-  ToSpecular(const workflow_code::Conventions& use, InstructionSet set)
-      : use_(use), kernel_(kernels(set).to_specular) {}
+// Applies equation (2) with an F0 for each texel. The equation is linear in F0. `metal` applies it with an F0
+// of 0, and makes plain diffuse: a metal over black dielectrics. Then the dielectrics' F0 and their share of
+// diffuse are added.
+void layer_dielectrics(const Stage& metal, Block& block) {
+  std::array<std::array<float, kBlockTexels>, 3> f0;
+  std::array<float, kBlockTexels> dielectric;
+  const Colors given = block.color(Parameter::kSpecular);
+  const float* const metallic = block.row(Parameter::kMetallic);
+  for (std::size_t c = 0; c < 3; ++c)
+    std::transform(given[c], given[c] + block.size(), f0[c].begin(), clamped);
+  for (std::size_t i = 0; i < block.size(); ++i) dielectric[i] = 1.0f - clamped(metallic[i]);
+  metal.run(block, nullptr);
+  const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
+  const auto diffuse_out = block.make_color(Parameter::kDiffuse);
+  const auto specular_out = block.make_color(Parameter::kSpecular);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      diffuse_out[c][i] = diffuse[c][i] * (1.0f - std::max({f0[0][i], f0[1][i], f0[2][i]}));
+      specular_out[c][i] = specular[c][i] + dielectric[i] * f0[c][i];
+    }
+}
 
-  std::size_t run(Block& block, std::uint8_t*) const override {
-    const Colors base = block.color(Parameter::kBaseColor);
-    const auto diffuse = block.make_color(Parameter::kDiffuse);
-    const auto specular = block.make_color(Parameter::kSpecular);
-    kernel_(use_, block.size(),
-            {base[0], base[1], base[2], block.row(Parameter::kMetallic), block.row(Parameter::kRoughness)},
-            {diffuse[0], diffuse[1], diffuse[2], specular[0], specular[1], specular[2], block.make_unused()});
-    return 0;
-  }
-
- private:
-  workflow_code::Conventions use_;
-  decltype(Kernels::to_specular) kernel_;
-};
-
-// LayerDielectrics applies equation (2) with an F0 for each texel. The equation is linear in F0. The kernel
-// makes a metal over black dielectrics; then the dielectrics' F0 and their share of diffuse are added.
-class LayerDielectrics final : public Stage {
- public:
-  // `metal` applies equation (2) with an F0 of 0, and makes plain diffuse.
-  explicit LayerDielectrics(std::shared_ptr<const Stage> metal) : metal_(std::move(metal)) {}
-
-  std::size_t run(Block& block, std::uint8_t* outside) const override {
-    std::array<std::array<float, kBlockTexels>, 3> f0;
-    std::array<float, kBlockTexels> dielectric;
-    const Colors given = block.color(Parameter::kSpecular);
-    const float* const metallic = block.row(Parameter::kMetallic);
-    for (std::size_t c = 0; c < 3; ++c)
-      std::transform(given[c], given[c] + block.size(), f0[c].begin(), clamped);
-    for (std::size_t i = 0; i < block.size(); ++i) dielectric[i] = 1.0f - clamped(metallic[i]);
-    const std::size_t count = metal_->run(block, outside);
-    const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
-    const auto diffuse_out = block.make_color(Parameter::kDiffuse);
-    const auto specular_out = block.make_color(Parameter::kSpecular);
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < block.size(); ++i) {
-        diffuse_out[c][i] = diffuse[c][i] * (1.0f - std::max({f0[0][i], f0[1][i], f0[2][i]}));
-        specular_out[c][i] = specular[c][i] + dielectric[i] * f0[c][i];
-      }
-    return count;
-  }
-
- private:
-  std::shared_ptr<const Stage> metal_;
-};
-
-// ScaleDiffuse converts between plain and scaled diffuse. The result is black if specular reflects all light.
-class ScaleDiffuse final : public Stage {
- public:
-  explicit ScaleDiffuse(DiffuseConvention to) : to_(to) {}
-
-  std::size_t run(Block& block, std::uint8_t*) const override {
-    const Colors specular = block.color(Parameter::kSpecular), diffuse = block.color(Parameter::kDiffuse);
-    const auto out = block.make_color(Parameter::kDiffuse);
-    std::array<float, kBlockTexels> left;
+// Converts between plain and scaled diffuse. The result is black if specular reflects all light.
+void scale_diffuse(DiffuseConvention to, Block& block) {
+  const Colors specular = block.color(Parameter::kSpecular), diffuse = block.color(Parameter::kDiffuse);
+  const auto out = block.make_color(Parameter::kDiffuse);
+  std::array<float, kBlockTexels> left;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    left[i] = 1.0f - clamped(std::max({specular[0][i], specular[1][i], specular[2][i]}));
+  for (std::size_t c = 3; c-- > 0;)  // red last: grey uses its row, which may be the first of `out`
     for (std::size_t i = 0; i < block.size(); ++i)
-      left[i] = 1.0f - clamped(std::max({specular[0][i], specular[1][i], specular[2][i]}));
-    for (std::size_t c = 3; c-- > 0;)  // red last: grey uses its row, which may be the first of `out`
-      for (std::size_t i = 0; i < block.size(); ++i)
-        out[c][i] = to_ == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
-                                                                        : diffuse[c][i] * left[i];
-    return 0;
-  }
-
- private:
-  DiffuseConvention to_;
-};
+      out[c][i] = to == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
+                                                                     : diffuse[c][i] * left[i];
+}
 
 // KeepDielectrics runs the BRDF's stages between two metallic workflows. The dielectric of one end becomes
 // the dielectric of the other end, whose F0 is fixed. So only the metal's share of specular follows the BRDF.
@@ -129,52 +91,37 @@ class KeepDielectrics final : public Stage {
   float source_f0_, target_f0_;
 };
 
-// Project converts to metallic by the projection, with the requested parts of its diagnosis.
-class Project final : public Stage {
- public:
-  // `width` is the parameter that the block has. With `reads_alpha` the workflows do not know this parameter,
-  // and `use` has alpha. With `widens`, surfaces without a highlight become rough.
-  Project(const workflow_code::Conventions& use, double prior, RoughnessEncoding width, bool reads_alpha,
-          bool widens, InstructionSet set)
-      : use_(use),
-        prior_(static_cast<float>(prior)),
-        width_(width),
-        reads_alpha_(reads_alpha),
-        widens_(widens && !reads_alpha_),
-        kernels_(kernels(set)) {}
-
-  std::size_t run(Block& block, std::uint8_t*) const override {
+// Returns the stage that converts to metallic by the projection, with the requested parts of its diagnosis.
+// `width` is the parameter that the block has. With `reads_alpha` the workflows do not know this parameter,
+// and `use` has alpha. With `widens`, surfaces without a highlight become rough.
+std::shared_ptr<const Stage> projection_stage(const workflow_code::Conventions& use, double prior,
+                                              RoughnessEncoding width, bool reads_alpha, bool widens,
+                                              InstructionSet set) {
+  return make_stage([use, prior = static_cast<float>(prior), width, reads_alpha,
+                     writes_width = widens && !reads_alpha, &by_set = kernels(set)](Block& block) {
     const Colors diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
-    const float* width = block.row(Parameter::kRoughness);
+    const float* row = block.row(Parameter::kRoughness);
     std::array<float, kBlockTexels> alpha;
-    if (reads_alpha_) {
+    if (reads_alpha) {
       for (std::size_t i = 0; i < block.size(); ++i)
-        alpha[i] = static_cast<float>(to_alpha(width_, static_cast<double>(width[i])));
-      width = alpha.data();
+        alpha[i] = static_cast<float>(to_alpha(width, static_cast<double>(row[i])));
+      row = alpha.data();
     }
     const SpecularRows<const float> from = {diffuse[0],  diffuse[1],  diffuse[2], specular[0],
-                                            specular[1], specular[2], width};
+                                            specular[1], specular[2], row};
     const auto base = block.make_color(Parameter::kBaseColor);
     const MetallicRows<float> to = {base[0], base[1], base[2], block.make(Parameter::kMetallic),
-                                    widens_ ? block.make(Parameter::kRoughness) : block.make_unused()};
-    kernels_.project(use_, prior_, block.size(), from, to);
+                                    writes_width ? block.make(Parameter::kRoughness) : block.make_unused()};
+    by_set.project(use, prior, block.size(), from, to);
     if (block.has(Parameter::kMetalMask))
-      kernels_.follow(use_, block.size(), from, block.row(Parameter::kMetalMask), to);
+      by_set.follow(use, block.size(), from, block.row(Parameter::kMetalMask), to);
     if (block.is_wanted(Parameter::kResidual) || block.is_wanted(Parameter::kMetallicUncertainty) ||
         block.is_wanted(Parameter::kMetallicIssues))
-      kernels_.diagnose(use_, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},
-                        {block.make(Parameter::kResidual), block.make(Parameter::kMetallicUncertainty),
-                         block.make(Parameter::kMetallicIssues)});
-    return 0;
-  }
-
- private:
-  workflow_code::Conventions use_;
-  float prior_;
-  RoughnessEncoding width_;
-  bool reads_alpha_, widens_;
-  const Kernels& kernels_;
-};
+      by_set.diagnose(use, block.size(), from, {to[0], to[1], to[2], to[3], to[4]},
+                      {block.make(Parameter::kResidual), block.make(Parameter::kMetallicUncertainty),
+                       block.make(Parameter::kMetallicIssues)});
+  });
+}
 
 std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   std::vector<Parameter> targets = parameters_of(end);
@@ -244,7 +191,16 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
 std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
                                             RoughnessEncoding width, InstructionSet set,
                                             const std::string& context) {
-  return std::make_shared<ToSpecular>(conventions_between(source, diffuse, width, false, context), set);
+  return make_stage([use = conventions_between(source, diffuse, width, false, context),
+                     kernel = kernels(set).to_specular](Block& block) {
+    const Colors base = block.color(Parameter::kBaseColor);
+    const auto diffuse_out = block.make_color(Parameter::kDiffuse);
+    const auto specular = block.make_color(Parameter::kSpecular);
+    kernel(use, block.size(),
+           {base[0], base[1], base[2], block.row(Parameter::kMetallic), block.row(Parameter::kRoughness)},
+           {diffuse_out[0], diffuse_out[1], diffuse_out[2], specular[0], specular[1], specular[2],
+            block.make_unused()});
+  });
 }
 
 std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set) {
@@ -253,8 +209,9 @@ std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stage
   WorkflowStages rest = stages;
   rest.source = between;
   const std::unique_ptr<Converter> converter = make_workflow_converter(rest, set);
-  StageList list = {std::make_shared<LayerDielectrics>(
-      specular_stage(black, DiffuseConvention::kPlain, stages.width, set, converter->info().id))};
+  StageList list = {make_stage(
+      [metal = specular_stage(black, DiffuseConvention::kPlain, stages.width, set, converter->info().id)](
+          Block& block) { layer_dielectrics(*metal, block); })};
   list.insert(list.end(), converter->stages().begin(), converter->stages().end());
   std::vector<Parameter> sources = {Parameter::kRoughness, Parameter::kSpecular, Parameter::kBaseColor,
                                     Parameter::kMetallic};
@@ -276,7 +233,7 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
   if (source != nullptr)
     list.push_back(specular_stage(*source, between, width, set, info.id));
   else if (diffuse_of(stages.source) != between)
-    list.push_back(std::make_shared<ScaleDiffuse>(between));
+    list.push_back(make_stage([between](Block& block) { scale_diffuse(between, block); }));
   const StageList brdf = stages.brdf == nullptr ? StageList{} : stages.brdf->stages();
   if (!brdf.empty() && source != nullptr && target != nullptr)
     list.push_back(std::make_shared<KeepDielectrics>(brdf, source->dielectric_f0, target->dielectric_f0));
@@ -284,11 +241,10 @@ std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
     list.insert(list.end(), brdf.begin(), brdf.end());
   if (target != nullptr) {
     require_prior(stages.prior, info.id);
-    list.push_back(std::make_shared<Project>(conventions_between(*target, between, width, true, info.id),
-                                             stages.prior, target_width, width != target_width,
-                                             source == nullptr, set));
+    list.push_back(projection_stage(conventions_between(*target, between, width, true, info.id), stages.prior,
+                                    target_width, width != target_width, source == nullptr, set));
   } else if (diffuse_of(stages.target) != between) {
-    list.push_back(std::make_shared<ScaleDiffuse>(diffuse_of(stages.target)));
+    list.push_back(make_stage([to = diffuse_of(stages.target)](Block& block) { scale_diffuse(to, block); }));
   }
   return std::make_unique<Converter>(std::move(info), parameters_of(stages.source), targets_of(stages.target),
                                      std::move(list));

@@ -34,7 +34,7 @@ struct MaterialMaps {
     }
     for (auto& row : back) row.assign(kLargeTexels, 1.0f);
     for (auto& row : specular) row.assign(kLargeTexels, 1.0f);
-    const auto there = workflow_test::plain(remap::Equation2{});
+    const auto there = workflow_test::plain(remap::ClosedFormula::kEquation2);
     const auto in = pointers<const float>(metallic);
     const auto out = pointers<float>(specular);
     remap::convert_workflow(there, kLargeTexels, in, out);

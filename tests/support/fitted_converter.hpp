@@ -55,8 +55,8 @@ inline std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
 }
 
 // Returns the fit with its converter.
-inline Fit lowered_fit(Fit fit, const LoweringOptions& options = {}) {
-  add_converter(&fit, options);
+inline Fit lowered_fit(Fit fit) {
+  add_converter(&fit);
   return fit;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -108,35 +109,30 @@ WorkflowConversion conversion_of(const MaterialTable& table, double dielectric_f
   return conversion;
 }
 
-struct MaterialSplit {
-  Samples training;
-  std::vector<MaterialRow> held_out;
-  Split record;
-};
-
-MaterialSplit split_materials(const MaterialTable& table, const std::vector<MaterialRow>& rows,
-                              const MaterialNetworkOptions& options) {
-  MaterialSplit split;
-  split.record = split_record(options.seed, options.held_out_fraction, rows.size());
-  split.training.input_count = 6;
-  split.training.output_count = 4;
-  const std::vector<std::size_t> order = seeded_order(rows.size(), options.seed);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const MaterialRow& row = rows[order[i]];
-    if (static_cast<std::int64_t>(i) < split.record.held_out_rows) {
-      split.held_out.push_back(row);
-      continue;
-    }
-    split.training.inputs.insert(split.training.inputs.end(), row.specular.begin(), row.specular.end());
-    split.training.outputs.insert(split.training.outputs.end(), row.metallic.begin(), row.metallic.end());
-  }
+Split split_of(const MaterialTable& table, std::size_t rows, const MaterialNetworkOptions& options) {
+  Split split = split_record(options.seed, options.held_out_fraction, rows);
   for (const NamedRow& row : table.rows)
-    if (row.status != RowStatus::kOk) ++split.record.left_out[std::string(status_name(row.status))];
+    if (row.status != RowStatus::kOk) ++split.left_out[std::string(status_name(row.status))];
   return split;
 }
 
+std::vector<MaterialRow> in_seeded_order(const std::vector<MaterialRow>& rows, std::uint64_t seed) {
+  std::vector<MaterialRow> result;
+  for (const std::size_t row : seeded_order(rows.size(), seed)) result.push_back(rows[row]);
+  return result;
+}
+
+Samples samples_of(std::span<const MaterialRow> rows) {
+  Samples samples{6, 4, {}, {}};
+  for (const MaterialRow& row : rows) {
+    samples.inputs.insert(samples.inputs.end(), row.specular.begin(), row.specular.end());
+    samples.outputs.insert(samples.outputs.end(), row.metallic.begin(), row.metallic.end());
+  }
+  return samples;
+}
+
 // Computes the errors of the converter, whose outputs are clamped to 0 to 1.
-void judge(const Network& network, const std::vector<MaterialRow>& rows, NetworkTraining* training) {
+void judge(const Network& network, std::span<const MaterialRow> rows, NetworkTraining* training) {
   std::vector<double> colors, metals;
   for (const MaterialRow& row : rows) {
     const std::vector<double> outputs =
@@ -162,15 +158,18 @@ WorkflowFit fit_material_network(const MaterialTable& table, std::string_view by
   WorkflowFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
-  const MaterialSplit split = split_materials(table, rows, options);
-  const TrainedNetwork trained = train_network(split.training, options, progress);
-  fit.conversion.formula = LearnedNetwork{trained.network};
+  const Split split = split_of(table, rows.size(), options);
+  const std::vector<MaterialRow> drawn = in_seeded_order(rows, options.seed);
+  const auto held_out = std::span(drawn).first(static_cast<std::size_t>(split.held_out_rows));
+  const auto training = std::span(drawn).subspan(held_out.size());
+  const TrainedNetwork trained = train_network(samples_of(training), options, progress);
+  fit.conversion.formula = trained.network;
   fit.training.emplace();
   fit.training->method["network"] = trained.method;
   fit.training->method["table_against_equation_2"] =
       "rms of f0 " + error_text(deviation.f0) + ", of diffuse " + error_text(deviation.diffuse);
-  judge(trained.network, split.held_out, &*fit.training);
-  fit.training->split = split.record;
+  judge(trained.network, held_out, &*fit.training);
+  fit.training->split = split;
   fit.training->table = table_record(table.name, bytes, table.comments);
   fit.tool_version = kVersion;
   require_valid(fit.conversion, fit.id);

@@ -207,13 +207,17 @@ class StartsProgress {
 // A Training is one training from initial weights given by a seed.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
-struct BestStart {
-  OptimisedNetwork network;
-  std::size_t start = 0;
-  std::string words;  // words for `method`
+// A TrainingOutcome is the result of either way of training.
+struct TrainingOutcome {
+  OptimisedNetwork best;  // of the start `best_start`
+  std::size_t best_start = 0;
+  NetworkSamples samples;
+  std::string method;
 };
 
-BestStart run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress) {
+// Trains from every start, keeps the best network and adds the starts to the method.
+void run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress,
+                TrainingOutcome& outcome) {
   std::vector<OptimisedNetwork> results(options.starts);
   StartsProgress board(options.starts, progress);
   run_parallel(options.starts, options.jobs, [&](std::size_t start) {
@@ -229,11 +233,11 @@ BestStart run_starts(const Training& train, const TrainingOptions& options, cons
                                      });
   if (!std::isfinite(best->validation_rms))
     throw numeric_error("network: none of " + std::to_string(results.size()) + " starts gave finite errors");
-  const auto start = static_cast<std::size_t>(best - results.begin());
-  return {*best, start,
-          std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) + ", best " +
-              std::to_string(start + 1) + " at iteration " + std::to_string(best->best_iteration) + " of " +
-              std::to_string(best->iterations)};
+  outcome.best = *best;
+  outcome.best_start = static_cast<std::size_t>(best - results.begin());
+  outcome.method += std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) +
+                    ", best " + std::to_string(outcome.best_start + 1) + " at iteration " +
+                    std::to_string(best->best_iteration) + " of " + std::to_string(best->iterations);
 }
 
 std::string shape_text(const NetworkShape& shape) {
@@ -241,13 +245,6 @@ std::string shape_text(const NetworkShape& shape) {
   for (const std::size_t size : shape.sizes) text += (text.empty() ? "" : "-") + std::to_string(size);
   return text + " " + std::string(activation_name(shape.activation));
 }
-
-// A TrainingOutcome is the result of either way of training.
-struct TrainingOutcome {
-  BestStart best;
-  NetworkSamples samples;
-  std::string method;
-};
 
 TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& all,
                             const TrainingOptions& options, const FitProgress& progress) {
@@ -261,13 +258,13 @@ TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& 
   settings.weight_decay = options.weight_decay;
   settings.iterations = kLevenbergIterations;
   settings.patience = kLevenbergPatience;
-  outcome.best = run_starts(
+  outcome.method = "Levenberg-Marquardt, ";
+  run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
         return run_levenberg_marquardt(shape, outcome.samples, initial_parameters(shape, seed), settings,
                                        report);
       },
-      options, progress);
-  outcome.method = "Levenberg-Marquardt, " + outcome.best.words;
+      options, progress, outcome);
   if (options.validation_fraction == 0.0) return outcome;
 
   // A short refit stays close to the validated parameters and uses the additional rows.
@@ -277,11 +274,11 @@ TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& 
   samples.training_outputs = all.outputs.leftCols(used);
   const NetworkSamples everything{samples.training_inputs, samples.training_outputs, samples.training_inputs,
                                   samples.training_outputs};
-  settings.iterations = std::clamp(outcome.best.network.best_iteration / 2, 5, kRefitIterations);
+  settings.iterations = std::clamp(outcome.best.best_iteration / 2, 5, kRefitIterations);
   settings.patience = settings.iterations;
-  const OptimisedNetwork refitted = run_levenberg_marquardt(
-      shape, everything, outcome.best.network.parameters, settings, [](double) { return true; });
-  if (std::isfinite(refitted.validation_rms)) outcome.best.network.parameters = refitted.parameters;
+  const OptimisedNetwork refitted = run_levenberg_marquardt(shape, everything, outcome.best.parameters,
+                                                            settings, [](double) { return true; });
+  if (std::isfinite(refitted.validation_rms)) outcome.best.parameters = refitted.parameters;
   outcome.method +=
       ", then " + std::to_string(refitted.best_iteration) + " iterations with the validation rows";
   return outcome;
@@ -302,7 +299,9 @@ TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& 
   OptimiserSettings lbfgs = adam;
   lbfgs.iterations = kLbfgsIterations;
   lbfgs.patience = kLbfgsPatience;
-  outcome.best = run_starts(
+  outcome.method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
+                   std::to_string(part.training_inputs.cols()) + " rows, ";
+  run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
         OptimiserSettings own = adam;
         own.seed = mixed_seed(seed, 0);
@@ -315,9 +314,7 @@ TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& 
         second.iterations += first.iterations;
         return second;
       },
-      options, progress);
-  outcome.method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
-                   std::to_string(part.training_inputs.cols()) + " rows, " + outcome.best.words;
+      options, progress, outcome);
   return outcome;
 }
 
@@ -333,13 +330,13 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
       is_small ? train_small(shape, all, options, progress) : train_large(shape, all, options, progress);
 
   TrainedNetwork trained;
-  const double* parameters = outcome.best.network.parameters.data();
+  const double* parameters = outcome.best.parameters.data();
   trained.network = {shape.activation, all.input_scalings, all.output_scalings,
                      layers_from_parameters(shape, parameters)};
   NetworkBatch batch(shape, outcome.samples.training_inputs);
   trained.training_rms = rms_difference(batch.forward(parameters), outcome.samples.training_outputs);
-  trained.validation_rms = outcome.best.network.validation_rms;
-  trained.best_start = outcome.best.start;
+  trained.validation_rms = outcome.best.validation_rms;
+  trained.best_start = outcome.best_start;
   const bool shares_rows =
       options.validation_fraction == 0.0 || is_small;  // the training rows include the validation rows
   trained.rows = static_cast<std::size_t>(outcome.samples.training_inputs.cols() +

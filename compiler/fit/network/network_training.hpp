@@ -9,15 +9,6 @@
 
 namespace remap {
 
-// A Samples holds the training data: rows of `input_count` inputs and `output_count` outputs.
-struct Samples {
-  std::size_t input_count = 0;
-  std::size_t output_count = 0;
-  std::vector<double> inputs;
-  std::vector<double> outputs;
-  std::size_t count() const noexcept { return input_count == 0 ? 0 : inputs.size() / input_count; }
-};
-
 // The defaults were chosen on the table that Sztrajman et al. (2019) published: two layers of 8 units are as
 // accurate as two layers of 16 and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
 // states the errors.

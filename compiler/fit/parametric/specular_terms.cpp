@@ -33,10 +33,10 @@ constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
 constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
 
-// A Samples combines the rows of one alpha. If f holds the values of the curves at alpha, |weights f -
+// A JoinedRows combines the rows of one alpha. If f holds the values of the curves at alpha, |weights f -
 // target|^2 is their squared error up to a constant. A QR decomposition of the powers of specular makes this
 // exact.
-struct Samples {
+struct JoinedRows {
   VectorXd alpha;
   MatrixXd weights;  // one column per term
   VectorXd target;
@@ -53,15 +53,15 @@ MatrixXd specular_powers(const std::vector<const TableRow*>& rows, const std::ve
   return values;
 }
 
-Samples join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha,
-                  const std::vector<int>& powers) {
+JoinedRows join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha,
+                     const std::vector<int>& powers) {
   const auto terms = static_cast<Index>(powers.size());
   Index count = 0;
   for (const auto& [alpha, rows] : by_alpha) count += std::min(static_cast<Index>(rows.size()), terms);
-  Samples samples{VectorXd(count),         MatrixXd(count, terms),
-                  VectorXd(count),         0.0,
-                  by_alpha.begin()->first, std::next(by_alpha.begin())->first,
-                  by_alpha.rbegin()->first};
+  JoinedRows samples{VectorXd(count),         MatrixXd(count, terms),
+                     VectorXd(count),         0.0,
+                     by_alpha.begin()->first, std::next(by_alpha.begin())->first,
+                     by_alpha.rbegin()->first};
   Index next = 0;
   for (const auto& [alpha, rows] : by_alpha) {
     MatrixXd left = specular_powers(rows, powers);
@@ -94,7 +94,7 @@ double rise_derivative(double rate, double x) {
 // rates are ramp_rate and bump_rate of each term in turn.
 class VariableProjection {
  public:
-  VariableProjection(const Samples& samples, const SpecularForm& form)
+  VariableProjection(const JoinedRows& samples, const SpecularForm& form)
       : samples_(samples), form_(form), penalty_(kContributionPenalty * std::sqrt(samples.row_count)) {
     target_ = VectorXd::Zero(size());
     target_.head(sample_count()) = samples.target;
@@ -189,7 +189,7 @@ class VariableProjection {
     return change;
   }
 
-  const Samples& samples_;
+  const JoinedRows& samples_;
   const SpecularForm& form_;
   const double penalty_;
   VectorXd target_;
@@ -321,7 +321,7 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
   for (const auto& group : by_alpha)
     if (position++ % step == 0) thinned.insert(group);
 
-  const Samples samples = join_rows(by_alpha, form.powers);
+  const JoinedRows samples = join_rows(by_alpha, form.powers);
   const VariableProjection projection(samples, form);
   if (near != nullptr) {
     std::vector<Rates> starts(1);
@@ -330,7 +330,7 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
     const Rates found = best_or_none(projection, starts);
     if (std::isfinite(found.cost)) return projection.terms(found.values);
   }
-  const Samples few = join_rows(thinned, form.powers);
+  const JoinedRows few = join_rows(thinned, form.powers);
   const VariableProjection few_projection(few, form);
   std::vector<Rates> starts = search_starts(few_projection);
   if (step > 1) starts = {best_of(few_projection, starts)};

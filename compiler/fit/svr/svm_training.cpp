@@ -34,14 +34,10 @@ void listen(const char* message) {
   std::from_chars(begin, text.data() + text.size(), iteration_count);
 }
 
-struct ModelDeleter {
-  void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
-};
-
 // An OwnedProblem holds the samples in libsvm's format: a list of (index, value) per sample that ends with
 // index -1.
 struct OwnedProblem {
-  OwnedProblem(const SvrSamples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {
+  OwnedProblem(const Samples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {
     const std::size_t width = samples.input_count + 1;
     nodes.reserve(samples.count() * width);
     for (std::size_t i = 0; i < samples.count(); ++i) {
@@ -64,7 +60,7 @@ struct OwnedProblem {
 };
 
 // Scales alpha, transformed by the pole, to [0, 1] over the samples, and specular by its span.
-std::vector<Scaling> input_scalings(const SvrSamples& samples, const SvrHyperParameters& parameters) {
+std::vector<Scaling> input_scalings(const Samples& samples, const SvrHyperParameters& parameters) {
   double low = samples.inputs[0], high = low;
   for (std::size_t i = 0; i < samples.inputs.size(); i += samples.input_count) {
     low = std::min(low, samples.inputs[i]);
@@ -108,8 +104,7 @@ KernelExpansion expansion_of(const svm_model& model, std::vector<Scaling> inputs
 
 }  // namespace
 
-std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
-                                               const SvrHyperParameters& parameters) {
+std::optional<KernelExpansion> train_expansion(const Samples& samples, const SvrHyperParameters& parameters) {
   static std::once_flag listening;
   std::call_once(listening, [] { svm_set_print_string_function(listen); });
 
@@ -120,7 +115,9 @@ std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
     throw usage_error(std::string("libsvm refused the hyper-parameters: ") + refusal);
   iteration_count = 0;
   // The model refers to the lists of `problem`, which must outlive it.
-  const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));
+  const std::unique_ptr<svm_model, void (*)(svm_model*)> model(
+      svm_train(&problem.problem, &settings),
+      [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };

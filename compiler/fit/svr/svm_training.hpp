@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lower/mapping.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 
@@ -23,21 +24,13 @@ struct SvrHyperParameters {
   bool operator==(const SvrHyperParameters&) const = default;
 };
 
-// An SvrSamples holds samples of one output: alpha unchanged, specular and output normalised to [0, 1].
-struct SvrSamples {
-  std::size_t input_count = 1;  // 1: alpha; 2: alpha, specular
-  std::vector<double> inputs;   // rows of input_count values
-  std::vector<double> outputs;  // one per sample
-  std::size_t count() const noexcept { return outputs.size(); }
-};
-
-// Trains an epsilon-SVR with Gaussian kernel on `samples` (at least 1, finite). Alpha is normalised over the
-// samples and specular is multiplied by specular_span. The result contains these scalings, so it has the
-// units of `samples`. Returns nothing if libsvm stopped at its limit of 10^7 iterations or found no finite
-// solution. Thread-safe; the same samples in the same order give the same bits. Throws kUsage if libsvm
-// refuses the hyper-parameters.
-std::optional<KernelExpansion> train_expansion(const SvrSamples& samples,
-                                               const SvrHyperParameters& parameters);
+// Trains an epsilon-SVR with Gaussian kernel on `samples` (at least 1, finite) of one output. Their inputs
+// are alpha, or alpha and specular. Alpha is unchanged, specular and output are normalised to [0, 1]. Alpha
+// is normalised over the samples and specular is multiplied by specular_span. The result contains these
+// scalings, so it has the units of `samples`. Returns nothing if libsvm stopped at its limit of 10^7
+// iterations or found no finite solution. Thread-safe; the same samples in the same order give the same bits.
+// Throws kUsage if libsvm refuses the hyper-parameters.
+std::optional<KernelExpansion> train_expansion(const Samples& samples, const SvrHyperParameters& parameters);
 
 // Returns for example `libsvm 3.24`.
 std::string solver_name();

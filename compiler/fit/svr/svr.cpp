@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 #include <string_view>
 
 #include "core/errors.hpp"
@@ -22,7 +23,7 @@ constexpr double kSoftening = 0.1;
 // A Problem is one output of the table with its scalings.
 struct Problem {
   std::string name;  // `alpha` or `specular`, as in `method`
-  SvrSamples samples;
+  Samples samples;
   std::vector<Scaling> inputs;
   Scaling output;
 };
@@ -37,22 +38,17 @@ Scaling scaling_of(const std::vector<double>& values) {
 // Computes the mean output of the rows with the same inputs, sorted by inputs.
 Problem make_problem(const std::string& name, const std::vector<TableRow>& rows, std::size_t input_count,
                      double TableRow::*output) {
-  struct Mean {
-    double sum = 0.0, count = 0.0;
-  };
-  std::map<std::array<double, 2>, Mean> means;
-  for (const TableRow& row : rows) {
-    Mean& mean = means[{row.alpha1, input_count > 1 ? row.specular1 : 0.0}];
-    mean.sum += row.*output;
-    mean.count += 1.0;
-  }
+  std::map<std::array<double, 2>, std::vector<double>> outputs_of;
+  for (const TableRow& row : rows)
+    outputs_of[{row.alpha1, input_count > 1 ? row.specular1 : 0.0}].push_back(row.*output);
   std::array<std::vector<double>, 2> inputs;
   std::vector<double> outputs;
-  for (const auto& [input, mean] : means) {
+  for (const auto& [input, values] : outputs_of) {
     for (std::size_t j = 0; j < input_count; ++j) inputs[j].push_back(input[j]);
-    outputs.push_back(mean.sum / mean.count);
+    outputs.push_back(std::accumulate(values.begin(), values.end(), 0.0) /
+                      static_cast<double>(values.size()));
   }
-  Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
+  Problem problem{name, {input_count, 1, {}, {}}, {}, scaling_of(outputs)};
   problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -76,7 +72,7 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
 }
 
 // Trains on `samples`. If C was searched, it is reduced until libsvm converges.
-KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
+KernelExpansion train(const std::string& name, const Samples& samples, bool is_given,
                       SvrHyperParameters& parameters) {
   for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
     if (softening > 0) parameters.cost *= kSoftening;
@@ -107,7 +103,7 @@ KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParamet
     record("search_samples", std::to_string(choice.sample_count));
     record("cross_validation_rms", number_text(choice.rms / problem.output.scale));
   }
-  const SvrSamples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
+  const Samples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
   KernelExpansion expansion = train(problem.name, training, is_given, parameters);
   if (expansion.inputs.size() > 1)
     expansion.inputs[1] = {problem.inputs[1].offset, problem.inputs[1].scale * expansion.inputs[1].scale};

@@ -36,23 +36,16 @@ constexpr std::size_t kTubeSamples = 600;
 enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
 using Point = std::array<int, kAxes>;
 
-struct Interval {
-  int low, high;
-};
 // C is at most 100, because libsvm needs minutes for a larger C and a wide kernel. Gamma is 0.1 to 3200, the
 // span at least 0.01, the pole at least 0.01.
-constexpr std::array<Interval, kAxes> kBounds = {{{0, 8}, {-4, 14}, {-8, 0}, {0, 5}, {-16, -4}}};
+constexpr Point kLowest = {0, -4, -8, 0, -16}, kHighest = {8, 14, 0, 5, -4};
 constexpr int kStartCost = 4;
 constexpr int kFirstStep = 2, kLargestRounds = 8;
 // The training time is inversely proportional to the width of the tube, so only small problems use narrow
 // tubes.
 constexpr std::size_t kSmallProblem = 100;
-struct TubeRange {
-  int start, narrowest;
-};
-constexpr TubeRange tube_range(std::size_t sample_count) {
-  return sample_count <= kSmallProblem ? TubeRange{-16, -16} : TubeRange{-12, -14};
-}
+constexpr int first_tube(std::size_t sample_count) { return sample_count <= kSmallProblem ? -16 : -12; }
+constexpr int narrowest_tube(std::size_t sample_count) { return sample_count <= kSmallProblem ? -16 : -14; }
 
 // Returns 10^(step / 4), rounded to two digits to keep records short.
 double value_of(int step) {
@@ -70,12 +63,8 @@ SvrHyperParameters parameters_at(const Point& point) {
           pole_of(point[kPole])};
 }
 
-struct FoldedSamples {
-  SvrSamples samples;
-  std::vector<std::size_t> fold;  // fold in which each sample is held out; kNeverJudges: it is never held out
-};
-
-FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
+// Returns the fold in which each sample is held out, or kNeverJudges.
+std::vector<std::size_t> folds_of(const Samples& samples, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<std::size_t> fold(samples.count());
   std::array<std::size_t, kFolds> order{};
@@ -87,7 +76,7 @@ FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
     fold[i] = order[i % kFolds];
   }
   if (samples.input_count == 1) fold.front() = fold.back() = kNeverJudges;
-  return {std::move(samples), std::move(fold)};
+  return fold;
 }
 
 struct Judgement {
@@ -96,11 +85,12 @@ struct Judgement {
   std::size_t vector_count = 0;
 };
 
-Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameters, std::size_t fold) {
-  const SvrSamples& all = folded.samples;
-  SvrSamples training{all.input_count, {}, {}};
+// Trains on the samples of the other folds and judges the samples of `fold`.
+Judgement judge(const Samples& all, const std::vector<std::size_t>& folds,
+                const SvrHyperParameters& parameters, std::size_t fold) {
+  Samples training{all.input_count, 1, {}, {}};
   for (std::size_t i = 0; i < all.count(); ++i) {
-    if (folded.fold[i] == fold) continue;
+    if (folds[i] == fold) continue;
     const auto begin = all.inputs.begin() + static_cast<std::ptrdiff_t>(i * all.input_count);
     training.inputs.insert(training.inputs.end(), begin,
                            begin + static_cast<std::ptrdiff_t>(all.input_count));
@@ -109,7 +99,7 @@ Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameter
   const auto expansion = train_expansion(training, parameters);
   Judgement judgement;
   for (std::size_t i = 0; i < all.count(); ++i) {
-    if (folded.fold[i] != fold) continue;
+    if (folds[i] != fold) continue;
     ++judgement.count;
     if (!expansion) continue;
     const double specular = all.input_count > 1 ? all.inputs[2 * i + 1] : 0.0;
@@ -157,7 +147,8 @@ struct Trial {
 // A Contest holds the candidates of one stage. Each point is evaluated once.
 class Contest {
  public:
-  Contest(FoldedSamples folded, unsigned jobs) : folded_(std::move(folded)), jobs_(jobs) {}
+  Contest(Samples samples, std::uint64_t seed, unsigned jobs)
+      : samples_(std::move(samples)), folds_(folds_of(samples_, seed)), jobs_(jobs) {}
 
   // Evaluates the new `points` on the first folds, and the promising ones on the other folds.
   void enter(const std::vector<Point>& points) {
@@ -203,7 +194,7 @@ class Contest {
 
   const Trial& at(const Point& point) const { return candidates_.at(point); }
   std::size_t size() const { return candidates_.size(); }
-  std::size_t sample_count() const { return folded_.samples.count(); }
+  std::size_t sample_count() const { return samples_.count(); }
   void report_to(FitProgress progress) { progress_ = std::move(progress); }
 
  private:
@@ -217,7 +208,7 @@ class Contest {
     run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
       Trial& candidate = *entered[task / folds];
       const std::size_t fold = begin + task % folds;
-      candidate.folds[fold] = judge(folded_, parameters_at(candidate.point), fold);
+      candidate.folds[fold] = judge(samples_, folds_, parameters_at(candidate.point), fold);
       const std::lock_guard lock(mutex);
       ++done;
       const double share = static_cast<double>(done) / static_cast<double>(entered.size() * folds);
@@ -225,7 +216,8 @@ class Contest {
     });
   }
 
-  FoldedSamples folded_;
+  Samples samples_;
+  std::vector<std::size_t> folds_;
   unsigned jobs_;
   FitProgress progress_;
   std::map<Point, Trial> candidates_;
@@ -249,17 +241,18 @@ std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_c
   for (const Point& move : moves) {
     Point point = centre;
     for (std::size_t axis = 0; axis < kAxes; ++axis)
-      point[axis] = std::clamp(point[axis] + step * move[axis], kBounds[axis].low, kBounds[axis].high);
+      point[axis] = std::clamp(point[axis] + step * move[axis], kLowest[axis], kHighest[axis]);
     if (point != centre) points.push_back(point);
   }
   return points;
 }
 
-// Moves from `point` along `axis` while each step reduces the error to less than `needed` times its value.
-Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds, double needed) {
+// Moves from `point` along `axis`, at most to `limit`, while each step reduces the error to less than
+// `needed` times its value.
+Point follow(Contest& contest, Point point, Axis axis, int step, int limit, double needed) {
   for (Point next = point;; point = next) {
     next[axis] += step;
-    if (next[axis] < bounds.low || next[axis] > bounds.high) return point;
+    if (step < 0 ? next[axis] < limit : next[axis] > limit) return point;
     contest.enter({next});
     const Trial& candidate = contest.at(next);
     if (!candidate.is_finished() || !(candidate.rms() < needed * contest.at(point).rms())) return point;
@@ -270,17 +263,17 @@ Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds
 // tube shows differences between kernels that a wide tube hides, so gamma is increased again if this helps.
 Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   contest.enter({start});
-  Point point = follow(contest, start, kEpsilon, -2, {narrowest, kBounds[kEpsilon].high}, kWorthTime);
-  if (point == start) return follow(contest, start, kEpsilon, 2, kBounds[kEpsilon], 1.0);
-  return follow(contest, point, kGamma, 1, kBounds[kGamma], kWorthTime);
+  Point point = follow(contest, start, kEpsilon, -2, narrowest, kWorthTime);
+  if (point == start) return follow(contest, start, kEpsilon, 2, kHighest[kEpsilon], 1.0);
+  return follow(contest, point, kGamma, 1, kHighest[kGamma], kWorthTime);
 }
 
 }  // namespace
 
-SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed) {
+Samples draw_evenly(const Samples& samples, std::size_t count, std::uint64_t seed) {
   if (samples.count() <= count) return samples;
   std::mt19937_64 random(seed);
-  SvrSamples drawn{samples.input_count, {}, {}};
+  Samples drawn{samples.input_count, 1, {}, {}};
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t begin = k * samples.count() / count, end = (k + 1) * samples.count() / count;
     const std::size_t chosen = begin + random() % (end - begin);
@@ -291,17 +284,17 @@ SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64
   return drawn;
 }
 
-SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed, unsigned jobs,
+SvrChoice search_hyper_parameters(const Samples& samples, std::uint64_t seed, unsigned jobs,
                                   const FitProgress& progress) {
   SvrChoice choice;
   if (samples.count() < kFewestSamples) return choice;
   const auto contest = [&](std::size_t sample_count) {
-    return Contest(fold_samples(draw_evenly(samples, sample_count, seed), seed), jobs);
+    return Contest(draw_evenly(samples, sample_count, seed), seed, jobs);
   };
 
   Contest coarse = contest(kGridSamples);
   coarse.report_to(part_of(progress, 0.0, 0.2));
-  coarse.enter(grid(samples.input_count, tube_range(samples.count()).start));
+  coarse.enter(grid(samples.input_count, first_tube(samples.count())));
   Point centre = coarse.best().point;
 
   Contest fine = contest(kPatternSamples);
@@ -320,7 +313,7 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed,
 
   Contest tube = contest(kTubeSamples);
   tube.report_to(part_of(progress, 0.7, 1.0));
-  centre = choose_tube(tube, centre, tube_range(samples.count()).narrowest);
+  centre = choose_tube(tube, centre, narrowest_tube(samples.count()));
 
   choice.parameters = parameters_at(centre);
   choice.rms = tube.at(centre).rms();

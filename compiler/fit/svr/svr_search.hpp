@@ -30,11 +30,11 @@ struct SvrChoice {
 // per core).
 //
 // Throws kNumeric if no candidate converges, and the exceptions of `progress`.
-SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed, unsigned jobs,
+SvrChoice search_hyper_parameters(const Samples& samples, std::uint64_t seed, unsigned jobs,
                                   const FitProgress& progress);
 
 // Draws `count` of `samples`, or all if there are fewer. It takes one sample by `seed` from each of `count`
 // equal sections of the list, so that a sorted list stays covered.
-SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed);
+Samples draw_evenly(const Samples& samples, std::size_t count, std::uint64_t seed);
 
 }  // namespace remap

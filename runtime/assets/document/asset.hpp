@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "assets/document/asset_uri.hpp"
@@ -32,28 +34,26 @@ class ByteSource {
 // Reads from `bytes`, which must outlive this object.
 class MemorySource final : public ByteSource {
  public:
-  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
+  explicit MemorySource(std::string bytes) : bytes_(std::move(bytes)) {}
   std::uint64_t size() const override { return bytes_.size(); }
   std::string read(std::uint64_t begin, std::size_t count) const override {
-    return std::string(bytes_.substr(begin, count));
+    return bytes_.substr(begin, count);
   }
 
  private:
-  std::string_view bytes_;
+  std::string bytes_;
 };
 
-// An AssetFiles opens files that belong to an asset.
-class AssetFiles {
- public:
-  virtual ~AssetFiles() = default;
-  // Opens a file by its path relative to the asset. Throws kInput, also for a path that leads out of the
-  // allowed folders.
-  virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
-};
+// Opens a file that belongs to an asset, by its path relative to the asset. Throws kInput, also for a path
+// that leads out of the allowed folders.
+using OpenAssetFile = std::function<std::unique_ptr<ByteSource>(const std::string& path)>;
 
 // An AssetResources opens files that belong to an asset, and provides what its images need.
-class AssetResources : public AssetFiles {
+class AssetResources {
  public:
+  virtual ~AssetResources() = default;
+  // Does what OpenAssetFile describes.
+  virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
   virtual const ImageCodec& codec() const = 0;
   // Returns the image enlarged to a size that is at least its own in both directions. It interpolates
   // bilinearly in linear light. All channels except alpha are in sRGB.

@@ -35,9 +35,7 @@ class MtlDocument {
   MtlDocument(std::string_view text, const std::string& context);
 
   std::string_view text() const noexcept { return text_; }
-  std::string_view raw(TextSpan span) const noexcept {
-    return text_.substr(span.begin, span.end - span.begin);
-  }
+  std::string_view raw(TextSpan span) const noexcept { return span.in(text_); }
   // Returns the statements in the order of the text, without blank lines and comments. Statements before the
   // first material belong to no material.
   const std::vector<MtlStatement>& statements() const noexcept { return statements_; }

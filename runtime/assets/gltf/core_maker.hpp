@@ -32,12 +32,12 @@ std::string core_summary(const CoreTexts& texts, const std::string& kept);
 
 class CoreMaker {
  public:
-  // `parts` must outlive this object.
-  CoreMaker(const DirectionParts& parts, GltfWorkflow workflow, GridReason reason)
-      : textures_(parts.textures),
+  // `textures` must outlive this object.
+  CoreMaker(const AssetOptions& options, MaterialTextures* textures, GltfWorkflow workflow, GridReason reason)
+      : textures_(textures),
         workflow_(workflow),
         reason_(reason),
-        converter_(converter_of(workflow, "gltf", parts.options)) {}
+        converter_(converter_of(workflow, "gltf", options)) {}
 
   // Converts a material. Constant maps become factors of `material`. Throws kInput for maps that cannot be
   // read or do not lie on one grid.

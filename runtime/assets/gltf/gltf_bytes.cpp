@@ -37,10 +37,10 @@ std::string data_of_uri(std::string_view uri) {
 }
 
 GltfBytes::GltfBytes(const SpannedJson& json, const GltfContainer& container, const ByteSource& source,
-                     const AssetFiles& files)
+                     OpenAssetFile open)
     : container_(container),
       source_(source),
-      files_(files),
+      open_(std::move(open)),
       images_(json.root()["images"].entries()),
       views_(json.root()["bufferViews"].entries()),
       buffers_(json.root()["buffers"].entries()) {}
@@ -58,7 +58,7 @@ std::string GltfBytes::of_uri(const std::string& uri) const {
     case UriKind::kData:
       return data_of_uri(uri);
     case UriKind::kFile: {
-      const std::unique_ptr<ByteSource> file = files_.open(percent_decoded(uri));
+      const std::unique_ptr<ByteSource> file = open_(percent_decoded(uri));
       if (file->size() > kLargestImage) throw input_error(plain(uri, 200) + ": is too large for an image");
       return file->read(0, file->size());
     }
@@ -83,7 +83,7 @@ std::string GltfBytes::of_view(std::size_t index) const {
   };
   if (const auto uri = buffer["uri"].text()) {
     if (uri_kind(*uri) == UriKind::kFile) {
-      const std::unique_ptr<ByteSource> file = files_.open(percent_decoded(*uri));
+      const std::unique_ptr<ByteSource> file = open_(percent_decoded(*uri));
       require_within(file->size());
       return file->read(offset, length);
     }

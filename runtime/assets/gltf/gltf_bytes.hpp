@@ -15,9 +15,9 @@ namespace remap {
 
 class GltfBytes {
  public:
-  // All arguments must outlive this object.
+  // All arguments except `open` must outlive this object.
   GltfBytes(const SpannedJson& json, const GltfContainer& container, const ByteSource& source,
-            const AssetFiles& files);
+            OpenAssetFile open);
 
   // Returns the bytes of an image as its file has them. Throws kInput if the index has no image, or if its
   // bytes cannot be read.
@@ -29,7 +29,7 @@ class GltfBytes {
 
   const GltfContainer& container_;
   const ByteSource& source_;
-  const AssetFiles& files_;
+  OpenAssetFile open_;
   std::vector<SpanValue> images_, views_, buffers_;
 };
 

@@ -25,12 +25,7 @@ std::string bytes_of(std::uint32_t value) {
   return bytes;
 }
 
-struct Chunk {
-  std::uint32_t type = 0;
-  std::uint64_t begin = 0, end = 0;  // range of the content
-};
-
-Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& context) {
+GlbChunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& context) {
   const std::uint64_t left = source.size() - at;
   if (left < kChunkHeaderSize)
     throw input_error(context + ": is cut off in the header of a chunk at byte " + std::to_string(at));
@@ -40,7 +35,7 @@ Chunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string& co
     throw input_error(context + ": the chunk at byte " + std::to_string(at) + " should have " +
                       std::to_string(length) + " bytes, but the file ends after " +
                       std::to_string(left - kChunkHeaderSize) + " (it is cut off or damaged)");
-  return {number_in(header, 4), at + kChunkHeaderSize, at + kChunkHeaderSize + length};
+  return {number_in(header, 4), at, at + kChunkHeaderSize + length};
 }
 
 // Throws unless the file is as long as its header states.
@@ -84,15 +79,15 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
   }
   require_header(source, context);
   if (source.size() == kHeaderSize) throw input_error(context + ": has no JSON chunk");
-  const Chunk json = chunk_at(source, kHeaderSize, context);
+  const GlbChunk json = chunk_at(source, kHeaderSize, context);
   if (json.type != kJsonChunk) throw input_error(context + ": its first chunk is not JSON");
-  require_short(json.end - json.begin, context);
+  require_short(json.content_size(), context);
   for (std::uint64_t at = json.end; at < source.size();) {
-    const Chunk chunk = chunk_at(source, at, context);
-    container.chunks.push_back({chunk.type, at, chunk.end});
-    at = chunk.end;
+    container.chunks.push_back(chunk_at(source, at, context));
+    at = container.chunks.back().end;
   }
-  container.json = without_padding(source.read(json.begin, json.end - json.begin), container);
+  container.json = without_padding(
+      source.read(json.content_begin(), static_cast<std::size_t>(json.content_size())), container);
   return container;
 }
 

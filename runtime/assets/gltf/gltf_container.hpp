@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e494
 
 inline constexpr std::uint64_t kChunkHeaderSize = 8;
 
-// A GlbChunk is a chunk after the JSON. The range includes its header.
+// A GlbChunk is a chunk of a container. The range includes its header.
 struct GlbChunk {
   std::uint32_t type = 0;
   std::uint64_t begin = 0, end = 0;

@@ -39,7 +39,8 @@ std::optional<std::pair<std::size_t, std::string>> pointed_material(std::string_
 
 struct ImageParts {
   ImageParts(const GltfSource& source, const AssetOptions& options, const AssetResources& resources)
-      : bytes(source.json, source.container, source.bytes, resources),
+      : bytes(source.json, source.container, source.bytes,
+              [&resources](const std::string& path) { return resources.open(path); }),
         images(source.json, bytes, resources),
         added(source.json, source.container, resources, source.context),
         textures(options, resources, images, added) {}
@@ -57,12 +58,12 @@ class GltfConversion {
     if (options.folds_specular && (options.target != AssetTarget::kMetalRough || options.extensions))
       throw usage_error("KHR_materials_specular is only folded into core (--to gltf without --extensions)");
     if (resources != nullptr) parts_ = std::make_unique<ImageParts>(source, options, *resources);
-    const DirectionParts parts{options, parts_ ? &parts_->textures : nullptr};
+    MaterialTextures* const textures = parts_ ? &parts_->textures : nullptr;
     if (options.target == AssetTarget::kSpecGloss)
-      directions_.push_back(make_core_to_specgloss(parts));
+      directions_.push_back(make_core_to_specgloss(options, textures));
     else
-      directions_.push_back(make_specgloss_to_core(parts));
-    if (options.folds_specular) directions_.push_back(make_specular_fold(parts));
+      directions_.push_back(make_specgloss_to_core(options, textures));
+    if (options.folds_specular) directions_.push_back(make_specular_fold(options, textures));
   }
 
   GltfResult result() {

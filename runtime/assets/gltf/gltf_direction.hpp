@@ -63,19 +63,18 @@ class GltfDirection {
   virtual MaterialEdit convert(SpanValue material, AssetMaterial& report) = 0;
 };
 
-// A DirectionParts holds what a direction needs besides materials. All of it must outlive the direction.
-struct DirectionParts {
-  const AssetOptions& options;
-  MaterialTextures* textures;  // null if no images can be read
-};
+// These functions make directions. `options` and `textures` must outlive them. `textures` is null if no
+// images can be read.
 
 // Makes the direction from KHR_materials_pbrSpecularGlossiness to core, with or without
 // KHR_materials_specular and _ior.
-std::unique_ptr<GltfDirection> make_specgloss_to_core(const DirectionParts& parts);
+std::unique_ptr<GltfDirection> make_specgloss_to_core(const AssetOptions& options,
+                                                      MaterialTextures* textures);
 // Makes the direction that adds KHR_materials_pbrSpecularGlossiness to core, with KHR_materials_specular or
 // _ior.
-std::unique_ptr<GltfDirection> make_core_to_specgloss(const DirectionParts& parts);
+std::unique_ptr<GltfDirection> make_core_to_specgloss(const AssetOptions& options,
+                                                      MaterialTextures* textures);
 // Makes the direction that folds KHR_materials_specular and _ior into core.
-std::unique_ptr<GltfDirection> make_specular_fold(const DirectionParts& parts);
+std::unique_ptr<GltfDirection> make_specular_fold(const AssetOptions& options, MaterialTextures* textures);
 
 }  // namespace remap

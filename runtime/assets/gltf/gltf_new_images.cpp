@@ -49,15 +49,14 @@ GltfNewImages::GltfNewImages(const SpannedJson& json, const GltfContainer& conta
 }
 
 std::size_t GltfNewImages::add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
-                                     const ImageCoding& coding) {
+                                     std::optional<int> jpeg_quality, int png_level) {
   const ImageCodec& codec = resources_.codec();
-  const std::optional<int> quality = coding.jpeg_quality;
   std::string bytes =
-      quality ? codec.encode_jpeg(pixels, *quality) : codec.encode_png(pixels, coding.png_level);
+      jpeg_quality ? codec.encode_jpeg(pixels, *jpeg_quality) : codec.encode_png(pixels, png_level);
   // Materials that differ only in color often share the same metallic-roughness image.
   const auto same = std::ranges::find(new_images_, bytes, &NewImage::bytes);
   if (same != new_images_.end()) return static_cast<std::size_t>(same - new_images_.begin());
-  new_images_.push_back({std::move(bytes), quality ? kJpeg : kPng, model, std::string(suffix)});
+  new_images_.push_back({std::move(bytes), jpeg_quality ? kJpeg : kPng, model, std::string(suffix)});
   return new_images_.size() - 1;
 }
 

@@ -23,11 +23,6 @@
 
 namespace remap {
 
-struct ImageCoding {
-  std::optional<int> jpeg_quality = std::nullopt;  // if missing, images are PNG
-  int png_level = kUsualPngLevel;
-};
-
 class GltfNewImages {
  public:
   // All arguments must outlive this object.
@@ -35,9 +30,10 @@ class GltfNewImages {
                 const std::string& context);
 
   // Adds an image next to its model, an image of the file. `suffix` is part of its name: `_baseColor`.
-  // Returns the number of the new image, or the number of an earlier new image with equal bytes.
+  // The image is PNG if `jpeg_quality` is missing. Returns the number of the new image, or the number of an
+  // earlier new image with equal bytes.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
-                        const ImageCoding& coding);
+                        std::optional<int> jpeg_quality, int png_level);
   // Adds a texture of a new image with the sampler of its model, a texture of the file. Returns the number of
   // the new texture, or the number of an equal one that was added before.
   std::size_t add_texture(std::size_t image, std::size_t model);

@@ -45,10 +45,10 @@ CoreTexts texts_of_diffuse(const GltfMaterial& material) {
 
 class SpecGlossToCore final : public GltfDirection {
  public:
-  explicit SpecGlossToCore(const DirectionParts& parts)
-      : options_(parts.options),
-        textures_(parts.textures),
-        maker_(parts, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions"}) {}
+  SpecGlossToCore(const AssetOptions& options, MaterialTextures* textures)
+      : options_(options),
+        textures_(textures),
+        maker_(options, textures, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions"}) {}
 
   bool applies_to(SpanValue material) const override {
     return static_cast<bool>(material["extensions"][kSpecGlossExtension]);
@@ -171,8 +171,9 @@ class SpecGlossToCore final : public GltfDirection {
 
 }  // namespace
 
-std::unique_ptr<GltfDirection> make_specgloss_to_core(const DirectionParts& parts) {
-  return std::make_unique<SpecGlossToCore>(parts);
+std::unique_ptr<GltfDirection> make_specgloss_to_core(const AssetOptions& options,
+                                                      MaterialTextures* textures) {
+  return std::make_unique<SpecGlossToCore>(options, textures);
 }
 
 }  // namespace remap

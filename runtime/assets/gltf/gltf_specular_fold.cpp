@@ -12,8 +12,8 @@ namespace {
 
 class SpecularFold final : public GltfDirection {
  public:
-  explicit SpecularFold(const DirectionParts& parts)
-      : maker_(parts, GltfWorkflow::kDielectric, {"metallic", ""}) {}
+  SpecularFold(const AssetOptions& options, MaterialTextures* textures)
+      : maker_(options, textures, GltfWorkflow::kDielectric, {"metallic", ""}) {}
 
   bool applies_to(SpanValue material) const override {
     const SpanValue extensions = material["extensions"];
@@ -52,8 +52,8 @@ class SpecularFold final : public GltfDirection {
 
 }  // namespace
 
-std::unique_ptr<GltfDirection> make_specular_fold(const DirectionParts& parts) {
-  return std::make_unique<SpecularFold>(parts);
+std::unique_ptr<GltfDirection> make_specular_fold(const AssetOptions& options, MaterialTextures* textures) {
+  return std::make_unique<SpecularFold>(options, textures);
 }
 
 }  // namespace remap

@@ -39,10 +39,10 @@ std::string specgloss_summary(const SpecGlossTexts& texts) {
 
 class CoreToSpecGloss final : public GltfDirection {
  public:
-  explicit CoreToSpecGloss(const DirectionParts& parts)
-      : textures_(parts.textures),
-        plain_(converter_of(GltfWorkflow::kMetalRough, "gltf-specgloss", parts.options)),
-        dielectric_(converter_of(GltfWorkflow::kDielectric, "gltf-specgloss", parts.options)) {}
+  CoreToSpecGloss(const AssetOptions& options, MaterialTextures* textures)
+      : textures_(textures),
+        plain_(converter_of(GltfWorkflow::kMetalRough, "gltf-specgloss", options)),
+        dielectric_(converter_of(GltfWorkflow::kDielectric, "gltf-specgloss", options)) {}
 
   // Skips unlit materials. They have no workflow, because KHR_materials_unlit reads base color.
   bool applies_to(SpanValue material) const override {
@@ -186,8 +186,9 @@ class CoreToSpecGloss final : public GltfDirection {
 
 }  // namespace
 
-std::unique_ptr<GltfDirection> make_core_to_specgloss(const DirectionParts& parts) {
-  return std::make_unique<CoreToSpecGloss>(parts);
+std::unique_ptr<GltfDirection> make_core_to_specgloss(const AssetOptions& options,
+                                                      MaterialTextures* textures) {
+  return std::make_unique<CoreToSpecGloss>(options, textures);
 }
 
 }  // namespace remap

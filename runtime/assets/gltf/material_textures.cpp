@@ -146,7 +146,7 @@ void MaterialTextures::align(std::vector<UsedTexture>& textures, const GridReaso
 
 void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason& reason,
                             std::vector<std::string>& warnings) const {
-  std::vector<PlacedTexture> placed;
+  std::vector<TextureGrid> placed;
   for (const UsedTexture& texture : textures)
     placed.push_back({texture.pixels().width, texture.pixels().height, texture.info.transform});
   const std::optional<CommonGrid> common = common_grid(placed);
@@ -198,12 +198,12 @@ std::size_t MaterialTextures::add_color(const ImagePixels& pixels, const UsedTex
   const bool is_exact =
       pixels.has_alpha() || pixels.type != PixelType::kUint8 || (color != nullptr && !color->image.is_jpeg);
   return new_images_.add_image(pixels, model.image.image, suffix,
-                               {is_exact ? std::nullopt : options_.jpeg_quality, png_level()});
+                               is_exact ? std::nullopt : options_.jpeg_quality, png_level());
 }
 
 std::size_t MaterialTextures::add_data(const ImagePixels& pixels, const UsedTexture& model,
                                        std::string_view suffix) {
-  return new_images_.add_image(pixels, model.image.image, suffix, {std::nullopt, png_level()});
+  return new_images_.add_image(pixels, model.image.image, suffix, std::nullopt, png_level());
 }
 
 TextureText MaterialTextures::text_of(const UsedTexture& model, std::size_t image) {

@@ -30,46 +30,37 @@ void store_channel(ImagePixels& pixels, std::size_t channel, std::size_t y, cons
                      texel);
 }
 
-// A LegacyStage converts diffuse, specular and an exponent to base color, metallic and roughness, and for a
-// dielectric also to F0.
-class LegacyStage final : public Stage {
- public:
-  explicit LegacyStage(bool as_dielectric) : as_dielectric_(as_dielectric) {}
-
-  std::size_t run(Block& block, std::uint8_t*) const override {
-    const auto diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
-    const float* const exponent = block.row(Parameter::kRoughness);
-    const auto base = block.make_color(Parameter::kBaseColor), f0 = block.make_color(Parameter::kSpecular);
-    float* const metallic = block.make(Parameter::kMetallic);
-    float* const roughness = block.make(Parameter::kRoughness);
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      LegacyMaterial material;
-      for (std::size_t c = 0; c < 3; ++c) {
-        material.diffuse[c] = static_cast<double>(diffuse[c][i]);
-        material.specular[c] = static_cast<double>(specular[c][i]);
-      }
-      material.exponent = static_cast<double>(exponent[i]);
-      if (as_dielectric_) {
-        const LegacyDielectric result = dielectric_of_legacy(material);
-        for (std::size_t c = 0; c < 3; ++c) {
-          base[c][i] = static_cast<float>(result.base_color[c]);
-          f0[c][i] = static_cast<float>(result.specular * result.specular_color[c]);
-        }
-        metallic[i] = 0.0f;
-        roughness[i] = static_cast<float>(result.roughness);
-      } else {
-        const MetalRoughFactors result = core_of_legacy(material);
-        for (std::size_t c = 0; c < 3; ++c) base[c][i] = result.base_color[c];
-        metallic[i] = result.metallic;
-        roughness[i] = result.roughness;
-      }
+// Converts diffuse, specular and an exponent to base color, metallic and roughness, and for a dielectric also
+// to F0.
+void convert_legacy(bool as_dielectric, Block& block) {
+  const auto diffuse = block.color(Parameter::kDiffuse), specular = block.color(Parameter::kSpecular);
+  const float* const exponent = block.row(Parameter::kRoughness);
+  const auto base = block.make_color(Parameter::kBaseColor), f0 = block.make_color(Parameter::kSpecular);
+  float* const metallic = block.make(Parameter::kMetallic);
+  float* const roughness = block.make(Parameter::kRoughness);
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    LegacyMaterial material;
+    for (std::size_t c = 0; c < 3; ++c) {
+      material.diffuse[c] = static_cast<double>(diffuse[c][i]);
+      material.specular[c] = static_cast<double>(specular[c][i]);
     }
-    return 0;
+    material.exponent = static_cast<double>(exponent[i]);
+    if (as_dielectric) {
+      const LegacyDielectric result = dielectric_of_legacy(material);
+      for (std::size_t c = 0; c < 3; ++c) {
+        base[c][i] = static_cast<float>(result.base_color[c]);
+        f0[c][i] = static_cast<float>(result.specular * result.specular_color[c]);
+      }
+      metallic[i] = 0.0f;
+      roughness[i] = static_cast<float>(result.roughness);
+    } else {
+      const MetalRoughFactors result = core_of_legacy(material);
+      for (std::size_t c = 0; c < 3; ++c) base[c][i] = result.base_color[c];
+      metallic[i] = result.metallic;
+      roughness[i] = result.roughness;
+    }
   }
-
- private:
-  bool as_dielectric_;
-};
+}
 
 Converter legacy_converter(bool as_dielectric) {
   ConverterInfo info;
@@ -80,7 +71,7 @@ Converter legacy_converter(bool as_dielectric) {
   return {std::move(info),
           {Parameter::kRoughness, Parameter::kSpecular, Parameter::kDiffuse},
           std::move(targets),
-          {std::make_shared<LegacyStage>(as_dielectric)}};
+          {make_stage([as_dielectric](Block& block) { convert_legacy(as_dielectric, block); })}};
 }
 
 // Returns the channel of a map that holds the exponent, as floats.
@@ -141,16 +132,17 @@ LegacyMapResult converted_maps(const LegacyMaps& maps) {
   ImagePixels opaque, exponents, f0;
   MapSources sources;
   sources.color_model = sources.data_model = &model;
-  sources.color = maps.diffuse;
+  sources.color = maps.diffuse.get();
   sources.color_factors = maps.factors.diffuse;
   if (maps.diffuse != nullptr && maps.diffuse->has_alpha()) {
-    opaque = with_alpha(maps.diffuse, nullptr, 'l');
+    opaque = with_alpha(maps.diffuse.get(), nullptr, 'l');
     sources.color = &opaque;
   }
   MapConversion& conversion = sources.conversion;
   conversion.source_convention = RoughnessEncoding::kExponent;
   conversion.sources[Parameter::kDiffuse] = color_source(sources.color, maps.factors.diffuse, "diffuse");
-  conversion.sources[Parameter::kSpecular] = color_source(maps.specular, maps.factors.specular, "specular");
+  conversion.sources[Parameter::kSpecular] =
+      color_source(maps.specular.get(), maps.factors.specular, "specular");
   if (maps.exponent != nullptr) exponents = exponents_of(maps);
   conversion.sources[Parameter::kRoughness] =
       value_source(maps.exponent != nullptr ? &exponents : nullptr, 0, maps.factors.exponent, "exponent");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "assets/document/image_codec.hpp"
@@ -12,10 +13,8 @@ namespace remap {
 // A LegacyMaps holds maps of one size, at least one of which is given. Colors are sRGB. The exponent is a
 // value from 0 to 1. The factors multiply the maps.
 struct LegacyMaps {
-  const ImagePixels* diffuse = nullptr;
-  const ImagePixels* specular = nullptr;
-  const ImagePixels* exponent = nullptr;
-  char exponent_channel = 'l';  // r, g, b, m for alpha, l for luminance
+  std::shared_ptr<const ImagePixels> diffuse, specular, exponent;  // null if missing
+  char exponent_channel = 'l';                                     // r, g, b, m for alpha, l for luminance
   LegacyMaterial factors;
   bool as_dielectric = false;  // with KHR_materials_specular
 };

@@ -56,36 +56,20 @@ void change_colors(const ImagePixels& pixels, std::vector<float>& values, const 
     change(std::span<float>(values.data() + i, colors));
 }
 
-// A GridSampler returns a row of the grid from the map's linear values.
-class GridSampler {
- public:
-  GridSampler(const ImagePixels& map, const std::vector<float>& values, const TextureTransform& transform,
-              const TextureGrid& grid)
-      : map_(map), values_(values), transform_(transform), grid_(grid) {}
-
-  void sample(std::size_t x, std::size_t y, float* out) const {
-    const TextureCoordinates own = {(static_cast<double>(x) + 0.5) / static_cast<double>(grid_.width),
-                                    (static_cast<double>(y) + 0.5) / static_cast<double>(grid_.height)};
-    const TextureCoordinates at = transformed(transform_, untransformed(grid_.transform, own));
-    if (!std::isfinite(at.u) || !std::isfinite(at.v))
-      throw input_error(std::string(kTransformExtension) + ": its numbers are too large to bake");
-    const RepeatedPlace column = place_at(at.u, map_.width), row = place_at(at.v, map_.height);
-    for (std::size_t c = 0; c < map_.channels; ++c)
-      out[c] = mixed(row.before, column, c) * (1.0f - row.share) + mixed(row.after, column, c) * row.share;
-  }
-
- private:
-  float mixed(std::size_t row, const RepeatedPlace& column, std::size_t channel) const {
-    const float* const first = values_.data() + row * map_.width * map_.channels + channel;
-    return first[column.before * map_.channels] * (1.0f - column.share) +
-           first[column.after * map_.channels] * column.share;
-  }
-
-  const ImagePixels& map_;
-  const std::vector<float>& values_;
-  const TextureTransform& transform_;
-  const TextureGrid& grid_;
-};
+// Writes the values of the map at texture coordinates, from its linear values.
+void sample(const ImagePixels& map, const std::vector<float>& values, const TextureCoordinates& at,
+            float* out) {
+  if (!std::isfinite(at.u) || !std::isfinite(at.v))
+    throw input_error(std::string(kTransformExtension) + ": its numbers are too large to bake");
+  const RepeatedPlace column = place_at(at.u, map.width), row = place_at(at.v, map.height);
+  const auto mixed = [&](std::size_t y, std::size_t channel) {
+    const float* const first = values.data() + y * map.width * map.channels + channel;
+    return first[column.before * map.channels] * (1.0f - column.share) +
+           first[column.after * map.channels] * column.share;
+  };
+  for (std::size_t c = 0; c < map.channels; ++c)
+    out[c] = mixed(row.before, c) * (1.0f - row.share) + mixed(row.after, c) * row.share;
+}
 
 // A column states how the coordinates of `to` move if the coordinates of `from` move by 1 in u or v.
 using Matrix = std::array<std::array<double, 2>, 2>;
@@ -122,10 +106,10 @@ bool is_within_one(const TextureTransform& transform) {
 }
 
 // Returns the size at which no texture loses detail.
-TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTransform& place) {
+TextureGrid grid_of(const std::vector<TextureGrid>& textures, const TextureTransform& place) {
   constexpr double kMostTexels = 4096.0;
   double width = 0.0, height = 0.0, most = kMostTexels;
-  for (const PlacedTexture& texture : textures) {
+  for (const TextureGrid& texture : textures) {
     const Matrix steps = steps_between(place, texture.transform);
     const auto own_width = static_cast<double>(texture.width),
                own_height = static_cast<double>(texture.height);
@@ -141,7 +125,7 @@ TextureGrid grid_of(const std::vector<PlacedTexture>& textures, const TextureTra
 
 }  // namespace
 
-std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures) {
+std::optional<CommonGrid> common_grid(const std::vector<TextureGrid>& textures) {
   const auto area = [&](std::size_t i) {
     const TextureTransform& transform = textures[i].transform;
     return std::fabs(transform.scale[0] * transform.scale[1]);
@@ -150,7 +134,7 @@ std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, area);
   const auto repeats_in = [&](std::size_t i) {
-    return std::ranges::all_of(textures, [&](const PlacedTexture& other) {
+    return std::ranges::all_of(textures, [&](const TextureGrid& other) {
       return is_whole(steps_between(textures[i].transform, other.transform));
     });
   };
@@ -171,11 +155,14 @@ ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransf
   std::vector<float> from(map.width * map.height * map.channels);
   load_values(map.type, map.bytes.data(), byte_count(map.type), from.size(), from.data());
   change_colors(map, from, [&](std::span<float> colors) { to_linear(transfer, colors); });
-  const GridSampler sampler(map, from, transform, grid);
   std::vector<float> values(grid.width * grid.height * map.channels);
   for (std::size_t y = 0; y < grid.height; ++y)
-    for (std::size_t x = 0; x < grid.width; ++x)
-      sampler.sample(x, y, values.data() + (y * grid.width + x) * map.channels);
+    for (std::size_t x = 0; x < grid.width; ++x) {
+      const TextureCoordinates own = {(static_cast<double>(x) + 0.5) / static_cast<double>(grid.width),
+                                      (static_cast<double>(y) + 0.5) / static_cast<double>(grid.height)};
+      sample(map, from, transformed(transform, untransformed(grid.transform, own)),
+             values.data() + (y * grid.width + x) * map.channels);
+    }
   change_colors(map, values, [&](std::span<float> colors) { from_linear(transfer, colors); });
   ImagePixels result{grid.width, grid.height, map.channels, map.type, {}};
   result.bytes.resize(values.size() * byte_count(map.type));

@@ -23,12 +23,6 @@ struct TextureGrid {
   TextureTransform transform;
 };
 
-// A PlacedTexture is a texture that will share a grid with others.
-struct PlacedTexture {
-  std::size_t width = 0, height = 0;  // size of its image, in texels
-  TextureTransform transform;
-};
-
 // A CommonGrid is the grid for all textures. `of` is the index of the texture whose place the grid has.
 struct CommonGrid {
   std::size_t of = 0;
@@ -40,7 +34,7 @@ struct CommonGrid {
 // Otherwise it chooses a texture that covers coordinates from 0 to 1 without a repeat. Returns the place of
 // that texture, or nothing if there is none. Texels of the grid are as small as the smallest texels of any
 // texture. A side has at most 4096 texels, or as many as the largest image.
-std::optional<CommonGrid> common_grid(const std::vector<PlacedTexture>& textures);
+std::optional<CommonGrid> common_grid(const std::vector<TextureGrid>& textures);
 
 // Returns `map` on another grid. Each texel gets the value of the map at the same texture coordinates (before
 // both transforms), bilinear and repeated. `transfer` is the curve of all channels except alpha, so that they

@@ -269,8 +269,8 @@ class MtlEditor {
     if (surface.exponent_map) report.warnings.push_back(exponent_warning(surface));
     const std::string key = key_of(surface, reflection.factors);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    const SurfaceMaps maps = load_maps(surface, images_, options_, report.warnings);
-    const LegacyMapResult converted = converted_maps(maps.with(reflection.factors, surface, false));
+    const LegacyMapResult converted =
+        converted_maps(load_maps(surface, reflection.factors, images_, options_, report.warnings));
     MtlResult result;
     result.base = converted.base;
     result.metallic = converted.metallic;

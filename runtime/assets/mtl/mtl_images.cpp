@@ -160,17 +160,12 @@ bool is_there(const AssetResources& resources, const std::string& path) {
   }
 }
 
-LegacyMaps SurfaceMaps::with(const LegacyMaterial& factors, const MtlSurface& surface,
-                             bool as_dielectric) const {
-  LegacyMaps maps{diffuse.get(), specular.get(), exponent.get(), 'l', factors, as_dielectric};
+LegacyMaps load_maps(const MtlSurface& surface, const LegacyMaterial& factors, MtlImages& images,
+                     const AssetOptions& options, std::vector<std::string>& warnings) {
+  LegacyMaps maps;
+  maps.factors = factors;
   if (surface.exponent_map && surface.exponent_map->channel != '\0')
     maps.exponent_channel = surface.exponent_map->channel;
-  return maps;
-}
-
-SurfaceMaps load_maps(const MtlSurface& surface, MtlImages& images, const AssetOptions& options,
-                      std::vector<std::string>& warnings) {
-  SurfaceMaps maps;
   std::vector<NamedMap> named;
   const auto load = [&](const std::optional<MtlMap>& map, std::shared_ptr<const ImagePixels>& pixels) {
     if (!map) return;

@@ -63,18 +63,11 @@ class MtlImages {
 // Returns true if a file can be opened.
 bool is_there(const AssetResources& resources, const std::string& path);
 
-// A SurfaceMaps holds the decoded maps of a surface, all of one size.
-struct SurfaceMaps {
-  std::shared_ptr<const ImagePixels> diffuse, specular, exponent;  // null if missing
-
-  // Combines the maps with factors. The maps must outlive the result.
-  LegacyMaps with(const LegacyMaterial& factors, const MtlSurface& surface, bool as_dielectric) const;
-};
-
-// Loads the maps that the conversion of a surface needs. Appends warnings. Throws kInput if a map is missing
-// or cannot be read. Also throws if maps differ in size (unless `options.enlarges`) or place on the surface.
-SurfaceMaps load_maps(const MtlSurface& surface, MtlImages& images, const AssetOptions& options,
-                      std::vector<std::string>& warnings);
+// Loads the maps that the conversion of a surface needs, which multiply `factors`. Appends warnings. Throws
+// kInput if a map is missing or cannot be read. Also throws if maps differ in size (unless
+// `options.enlarges`) or place on the surface.
+LegacyMaps load_maps(const MtlSurface& surface, const LegacyMaterial& factors, MtlImages& images,
+                     const AssetOptions& options, std::vector<std::string>& warnings);
 
 // Returns the key of a conversion of maps: their names, options and factors.
 std::string key_of(const MtlSurface& surface, const LegacyMaterial& factors);

@@ -110,12 +110,12 @@ ObjMaterials::ObjMaterials(const AssetOptions& options, const AssetResources& re
 
 ObjMaterials::~ObjMaterials() = default;
 
-std::vector<SceneMaterial> ObjMaterials::converted(const std::vector<ObjMaterialName>& names) {
+std::vector<SceneMaterial> ObjMaterials::converted(const std::vector<std::optional<std::string>>& names) {
   std::vector<SceneMaterial> materials;
   for (std::size_t i = 0; i < names.size(); ++i) {
     AssetMaterial& report = conversion_.materials.emplace_back();
     report.index = i;
-    report.name = names[i].name;
+    report.name = names[i].value_or("");
     const std::size_t before = textures_.info_count();
     SceneMaterial& material = materials.emplace_back();
     material.json = material_of(names[i], report);
@@ -124,13 +124,13 @@ std::vector<SceneMaterial> ObjMaterials::converted(const std::vector<ObjMaterial
   return materials;
 }
 
-Json ObjMaterials::material_of(const ObjMaterialName& name, AssetMaterial& report) {
-  const auto found = name.is_given ? libraries_.find(name.name) : std::nullopt;
+Json ObjMaterials::material_of(const std::optional<std::string>& name, AssetMaterial& report) {
+  const auto found = name ? libraries_.find(*name) : std::nullopt;
   if (found) return converted_block(*found->library, *found->block, report);
   Json material = Json::object();
-  if (!name.name.empty()) material["name"] = utf8_name(name.name);
+  if (name && !name->empty()) material["name"] = utf8_name(*name);
   material["pbrMetallicRoughness"] = Json{{"metallicFactor", 0}};
-  if (name.is_given) report.warnings.push_back("is in no MTL file that was found, and becomes white");
+  if (name) report.warnings.push_back("is in no MTL file that was found, and becomes white");
   return material;
 }
 
@@ -370,9 +370,10 @@ ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& dra
                           key_of(draft.surface, reflection.factors);
   std::shared_ptr<ConvertedImages>& known = converted_[key];
   if (known && (!known->has_own_base || known->base != kNoImage)) return *known;
-  const SurfaceMaps maps = load_maps(draft.surface, images, options_, draft.report.warnings);
+  LegacyMaps maps = load_maps(draft.surface, reflection.factors, images, options_, draft.report.warnings);
+  maps.as_dielectric = as_dielectric;
   auto made = std::make_shared<ConvertedImages>();
-  made->result = converted_maps(maps.with(reflection.factors, draft.surface, as_dielectric));
+  made->result = converted_maps(maps);
   LegacyMapResult& result = made->result;
   made->has_own_base = result.base_color.has_value();
   if (result.base_color)

@@ -30,7 +30,7 @@ class ObjMaterials {
   ~ObjMaterials();
 
   // Returns the materials of an OBJ file in their order. A material that no file defines is white.
-  std::vector<SceneMaterial> converted(const std::vector<ObjMaterialName>& names);
+  std::vector<SceneMaterial> converted(const std::vector<std::optional<std::string>>& names);
   // Returns the extensions of materials that are used.
   const std::set<std::string>& extensions() const noexcept { return extensions_; }
 
@@ -38,7 +38,7 @@ class ObjMaterials {
   struct MaterialDraft;
   struct ConvertedImages;
 
-  Json material_of(const ObjMaterialName& name, AssetMaterial& report);
+  Json material_of(const std::optional<std::string>& name, AssetMaterial& report);
   Json converted_block(MtlLibrary& library, const MtlBlock& block, AssetMaterial& report);
   static void describe(const MaterialDraft& draft);
   void set_reflection(MaterialDraft& draft);

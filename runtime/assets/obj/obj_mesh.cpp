@@ -98,7 +98,7 @@ class ObjStream final : public std::streambuf {
   // importer.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
-    materials_.push_back({"", false});
+    materials_.emplace_back();
     groups_.emplace_back();
     begin_group();
   }
@@ -115,7 +115,7 @@ class ObjStream final : public std::streambuf {
   }
 
   // Return the name for a number. Number 0 is for faces without a name.
-  const ObjMaterialName& material(std::size_t number) const { return materials_[number]; }
+  const std::optional<std::string>& material(std::size_t number) const { return materials_[number]; }
   const std::string& group(std::size_t number) const { return groups_[number]; }
 
  protected:
@@ -225,7 +225,7 @@ class ObjStream final : public std::streambuf {
   void use_material(const std::string& name) {
     const auto [entry, is_new] = numbers_.try_emplace(name, std::to_string(materials_.size()));
     if (is_new) {
-      materials_.push_back({name, true});
+      materials_.push_back(name);
       pass("mtllib " + entry->second);
     }
     pass("usemtl " + entry->second);
@@ -241,7 +241,7 @@ class ObjStream final : public std::streambuf {
   std::vector<std::string_view> corners_;
   std::size_t dropped_ = 0, small_ = 0, fans_ = 0;
   std::size_t vertices_ = 0, faces_ = 0, farthest_ = 0;  // farthest_: largest vertex index in this part
-  std::vector<ObjMaterialName> materials_;
+  std::vector<std::optional<std::string>> materials_;
   std::vector<std::string> groups_;
   std::map<std::string, std::string> numbers_;  // numbers of materials
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,16 +36,11 @@ struct ObjShape {
   std::vector<ObjPrimitive> primitives;
 };
 
-// An ObjMaterialName is a material's name. Faces before the first `usemtl` have none.
-struct ObjMaterialName {
-  std::string name;
-  bool is_given = false;
-};
-
 struct ObjScene {
-  std::vector<std::string> libraries;      // the arguments of each line `mtllib`
-  std::vector<ObjMaterialName> materials;  // materials that faces use, in the order of the file
-  std::vector<ObjShape> shapes;            // shapes with at least one triangle
+  std::vector<std::string> libraries;  // the arguments of each line `mtllib`
+  // materials that faces use, in the order of the file; faces before the first `usemtl` have no name
+  std::vector<std::optional<std::string>> materials;
+  std::vector<ObjShape> shapes;  // shapes with at least one triangle
   std::vector<std::string> warnings;
 };
 

@@ -54,7 +54,7 @@ Rows twice(Rows rows) {
 
 Regression fitted(const FitKind& kind, const Rows& rows, unsigned jobs = 0,
                   const FitProgress& progress = {}) {
-  RegressionOptions options;
+  FitOptions options;
   options.jobs = jobs;
   options.mlp.hidden = {5};
   options.mlp.starts = 2;

@@ -33,8 +33,8 @@ inline Table table_of(const Parametric& form, double low = 0.02, double high = 1
 inline Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string& form = "paper") {
   FitOptions options;
   options.kind = "parametric";
-  options.regression.seed = seed;
-  options.regression.form = form;
+  options.seed = seed;
+  options.form = form;
   return fit_table(table, table_text(table), options).fit;
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow
       const RandomModel model = random_model(kind, seed);
       const Fit fit = fit_of(model.mapping, model.domain);
       try {
-        const Lowered lowered = lower(fit, {1e-2, 1e-2});
+        const Lowered lowered = lower(fit, 1e-2);
         const Distance found = worst_share(fit, lowered, seed);
         CHECK(found.alpha <= 1.0);
         CHECK(found.specular <= 1.0);

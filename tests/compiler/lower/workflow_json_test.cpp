@@ -21,9 +21,9 @@ WorkflowFit example(const WorkflowFormula& formula) {
 
 TEST_CASE("workflow fit: every formula returns from its file") {
   for (const WorkflowFormula& formula :
-       {WorkflowFormula{Equation2{}}, WorkflowFormula{Projection{1e-5}},
-        WorkflowFormula{Equation3{MetallicMean::kPlain}}, WorkflowFormula{Equation3{MetallicMean::kAlbedo}},
-        WorkflowFormula{KhronosSolver{}}}) {
+       {WorkflowFormula{ClosedFormula::kEquation2}, WorkflowFormula{Projection{1e-5}},
+        WorkflowFormula{ClosedFormula::kEquation3}, WorkflowFormula{ClosedFormula::kEquation3ByAlbedo},
+        WorkflowFormula{ClosedFormula::kKhronos}}) {
     const WorkflowFit fit = example(formula);
     const AnyFit read = any_fit_from_json(fit_to_json(fit), "x");
     REQUIRE(std::holds_alternative<WorkflowFit>(read));
@@ -51,6 +51,6 @@ TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
 
 TEST_CASE("workflow fit: where width and specular are expected the error says what can be done") {
   CHECK_THROWS_WITH(
-      fit_from_json(fit_to_json(example(Equation2{})), "f.json"),
+      fit_from_json(fit_to_json(example(ClosedFormula::kEquation2)), "f.json"),
       Catch::StartsWith("f.json: converts whole materials") && Catch::Contains("remapc list, show and emit"));
 }

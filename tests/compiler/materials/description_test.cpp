@@ -44,7 +44,7 @@ TEST_CASE("materials: a description becomes statements, comments stay, unused in
   CHECK(translation.comment == "A to B.\nLost: nothing.");
   REQUIRE(translation.lines.size() == 3);
   CHECK(translation.lines[1].comment == "Twice as bright.");
-  CHECK(translation.lines[1].statement.type == ValueType::kColor);
+  CHECK(translation.lines[1].type == ValueType::kColor);
   CHECK(translation.ignored() == std::vector<std::string>{"unused"});
   const std::string header = materials_header(library), module = materials_module(library);
   CHECK_THAT(header, Catch::Contains("  // Twice as bright.\n  target.shade = source.color * 2.0f;\n"));
@@ -96,9 +96,8 @@ TEST_CASE("materials: what ships is complete") {
     CHECK_FALSE(translation.comment.empty());
     // Every model has roughness and a color.
     for (const char* word : {"oughness", "olor"})
-      CHECK(std::any_of(translation.lines.begin(), translation.lines.end(), [&](const TranslationLine& line) {
-        return line.statement.name.starts_with("target.") &&
-               line.statement.name.find(word) != std::string::npos;
+      CHECK(std::any_of(translation.lines.begin(), translation.lines.end(), [&](const Statement& line) {
+        return line.name.starts_with("target.") && line.name.find(word) != std::string::npos;
       }));
   }
 }

@@ -16,7 +16,7 @@ constexpr double kDielectric = 0.04;  // F0 at the specular level 0.5
 
 ModelDescription metallic() { return make_builtin_renderer()->model("mitsuba/ggx-metallic"); }
 
-SweepOptions metallic_sweep(const ParameterRoles& roles, const std::vector<SamplePoint>& samples) {
+SweepOptions metallic_sweep(const ParameterRoles& roles, const std::vector<MappedTexel>& samples) {
   SweepOptions options = sweep_options("mitsuba/ggx-metallic", "mitsuba/ggx", "natural", samples, 96);
   options.source_roles = roles;
   return options;

@@ -176,7 +176,7 @@ TEST_CASE("family: a law that bends sharply has no family") {
 TEST_CASE("sweep: a target that is quadratic in specular is matched as direct renders show it, everywhere",
           "[slow]") {
   const BlendRenderer renderer = quadratic_blend();
-  const std::vector<SamplePoint> samples = {{0.12, 0.3}, {0.3, 0.05}, {0.3, 0.6}, {0.5, 0.9}};
+  const std::vector<MappedTexel> samples = {{0.12, 0.3}, {0.3, 0.05}, {0.3, 0.6}, {0.5, 0.9}};
   for (const std::string objective : {"natural-1", "natural-2", "paper"}) {
     const SweepOptions options = sweep_options("mitsuba/ward", "disguised/blend", objective, samples, 32);
     const Table table = sweep(renderer, options);
@@ -210,8 +210,8 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   for (const TableRow& row : table.rows) {
     auto source = picture_taker.take(renderer.model("mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
     auto weights = picture_taker.weights(source);
-    const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, {false, false});
-    const JointMatch match = matcher.match({{row.alpha1, 0.5, 0.0}});
+    const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, DiffuseSearch::kNone);
+    const Match match = matcher.match({{row.alpha1, 0.5, 0.0}});
     // The margin allows for central differences of float pictures and for the tolerances of Ceres.
     CHECK(row.alpha2 == Approx(match.point().alpha).epsilon(1e-4));
     CHECK(row.specular2 == Approx(match.point().specular).epsilon(2e-4));

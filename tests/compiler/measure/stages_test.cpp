@@ -12,7 +12,7 @@ using namespace remap;
 
 namespace {
 
-SweepOptions staged(int stages, std::vector<SamplePoint> samples, double diffuse = 0.3) {
+SweepOptions staged(int stages, std::vector<MappedTexel> samples, double diffuse = 0.3) {
   SweepOptions options = sweep_options("mitsuba/as", "mitsuba/ward", "paper", std::move(samples), 96);
   options.objective.lights = {{45.0, 3.0}};
   options.stages = stages;
@@ -57,7 +57,7 @@ TEST_CASE(
 
 TEST_CASE("stages: width and specular of two stages do not depend on diffuse") {
   const auto renderer = make_builtin_renderer();
-  const std::vector<SamplePoint> samples = {{0.2, 0.3}, {0.4, 0.5}};
+  const std::vector<MappedTexel> samples = {{0.2, 0.3}, {0.4, 0.5}};
   const Table with = sweep(*renderer, staged(2, samples)),
               without = sweep(*renderer, staged(2, samples, 0.0));
   CHECK_FALSE(without.has_diffuse);

@@ -9,7 +9,7 @@
 namespace remap {
 
 inline SweepOptions sweep_options(const std::string& source, const std::string& target,
-                                  const std::string& objective, std::vector<SamplePoint> samples,
+                                  const std::string& objective, std::vector<MappedTexel> samples,
                                   int resolution = 512) {
   SweepOptions options;
   options.source = source;

@@ -26,7 +26,7 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
   if (path.empty()) return;
   const Table published = read_table(path, column_map("sztrajman-2019"));
   REQUIRE(published.rows.size() == 721);
-  std::vector<SamplePoint> samples;
+  std::vector<MappedTexel> samples;
   for (const TableRow& row : published.rows) samples.push_back({row.alpha1, row.specular1});
   const Table own =
       sweep(*make_builtin_renderer(), sweep_options("mitsuba/ward", "mitsuba/as", "paper", samples));
@@ -138,7 +138,7 @@ TEST_CASE("sweep: ends soon after it is cancelled") {
 }
 
 TEST_CASE("sweep: rows on both sides mark where the target reaches a limit, and comments tell the limits") {
-  std::vector<SamplePoint> samples;
+  std::vector<MappedTexel> samples;
   for (int j = 1; j <= 6; ++j) samples.push_back({0.65, j / 6.0});
   const Table table =
       sweep(*make_builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));

@@ -49,16 +49,18 @@ TEST_CASE("diagnosis: the residual is the root of the oracle's error, 0 on the f
         Oracle(material, alpha, 0.04, false)
             .error(result.metallic, {result.base_color[0], result.base_color[1], result.base_color[2]});
     CHECK(diagnose(plain(kClean), material, result).residual == Approx(std::sqrt(error)).margin(2e-3));
-    const SpecularMaterial said = to_specular(plain(Equation2{}), random_metallic(random));
+    const SpecularMaterial said = to_specular(plain(ClosedFormula::kEquation2), random_metallic(random));
     CHECK(diagnosis_of(plain(Projection{0.0}), said).residual < 2e-3);
   }
 }
 
 TEST_CASE("diagnosis: metallic is sharp where the picture depends on it and wide where it does not") {
-  const SpecularMaterial gold = to_specular(plain(Equation2{}), {{1.0f, 0.77f, 0.34f}, 1.0f, 0.3f});
+  const SpecularMaterial gold =
+      to_specular(plain(ClosedFormula::kEquation2), {{1.0f, 0.77f, 0.34f}, 1.0f, 0.3f});
   CHECK(diagnosis_of(plain(kClean), gold).metallic_uncertainty < 0.1f);
   // At an albedo close to F0, every metallic has the same F0 and hardly any diffuse.
-  const SpecularMaterial soot = to_specular(plain(Equation2{}), {{0.01f, 0.01f, 0.01f}, 0.0f, 0.9f});
+  const SpecularMaterial soot =
+      to_specular(plain(ClosedFormula::kEquation2), {{0.01f, 0.01f, 0.01f}, 0.0f, 0.9f});
   CHECK(diagnosis_of(plain(kClean), soot).metallic_uncertainty > 0.1f);
   const SpecularMaterial black{{0, 0, 0}, {0, 0, 0}, 0.5f};
   CHECK(diagnosis_of(plain(kClean), black).residual < 1e-3f);
@@ -70,7 +72,8 @@ TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
   CHECK(diagnosis_of(plain(kClean), bright).is_clamped);
   CHECK(diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 1.5f}, 0.5f}).is_clamped);
   CHECK(!diagnosis_of(plain(kClean), {{0.5f, 0.5f, 0.5f}, {0.04f, 0.04f, 0.04f}, 0.5f}).is_clamped);
-  const SpecularMaterial white = to_specular(plain(Equation2{}), {{1.0f, 1.0f, 1.0f}, 0.5f, 0.5f});
+  const SpecularMaterial white =
+      to_specular(plain(ClosedFormula::kEquation2), {{1.0f, 1.0f, 1.0f}, 0.5f, 0.5f});
   CHECK(!diagnosis_of(plain(kClean), white).is_clamped);
   SpecularMaterial broken = white;
   broken.diffuse[0] = std::numeric_limits<float>::quiet_NaN();
@@ -82,14 +85,14 @@ TEST_CASE("diagnosis: clamped where a base color or a parameter was clamped") {
 
 TEST_CASE("F0 of a dielectric: found in 8-bit maps, and said to be uncertain in maps of metal alone") {
   for (const double f0 : {0.02, 0.03, 0.04, 0.05}) {
-    const auto materials = stored_family(plain(Equation2{}, f0), 2000, 0.0f);
+    const auto materials = stored_family(plain(ClosedFormula::kEquation2, f0), 2000, 0.0f);
     const DielectricF0 found = estimated_f0(plain(kClean), materials);
     CHECK(found.f0 == Approx(f0).margin(1e-3));
     CHECK(found.is_certain);
     CHECK(found.residual < 0.01);
   }
-  CHECK(!estimated_f0(plain(kClean), stored_family(plain(Equation2{}), 500, 1.0f)).is_certain);
-  const auto scaled = stored_family(gltf(Equation2{}), 2000, 0.0f);
+  CHECK(!estimated_f0(plain(kClean), stored_family(plain(ClosedFormula::kEquation2), 500, 1.0f)).is_certain);
+  const auto scaled = stored_family(gltf(ClosedFormula::kEquation2), 2000, 0.0f);
   CHECK(estimated_f0(gltf(kClean), scaled).f0 == Approx(0.04).margin(1e-3));
   CHECK_THROWS_WITH(estimated_f0(plain(kClean), {}), Catch::Contains("without a valid texel"));
 }

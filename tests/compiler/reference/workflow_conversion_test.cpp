@@ -46,7 +46,7 @@ double as_it_is(double value) { return value; }
 
 TEST_CASE("equation (2): by hand, plain and scaled diffuse") {
   const MetallicMaterial material{{0.5f, 0.2f, 0.0f}, 0.25f, 0.3f};
-  const SpecularMaterial result = to_specular(plain(Equation2{}), material);
+  const SpecularMaterial result = to_specular(plain(ClosedFormula::kEquation2), material);
   CHECK(result.diffuse[0] == Approx(0.375));
   CHECK(result.diffuse[1] == Approx(0.15));
   CHECK(result.diffuse[2] == 0.0f);
@@ -54,36 +54,36 @@ TEST_CASE("equation (2): by hand, plain and scaled diffuse") {
   CHECK(result.specular[1] == Approx(0.08));
   CHECK(result.specular[2] == Approx(0.03));
   CHECK(result.width == 0.3f);
-  const SpecularMaterial scaled = to_specular(gltf(Equation2{}), material);
+  const SpecularMaterial scaled = to_specular(gltf(ClosedFormula::kEquation2), material);
   CHECK(scaled.diffuse[0] == Approx(0.96 * 0.375 / (1.0 - 0.155)));
   CHECK(scaled.specular[0] == Approx(0.155));
   CHECK(scaled.width == Approx(0.7));  // glossiness
-  CHECK(to_specular(plain(Equation2{}, 0.03), material).specular[2] == Approx(0.0225));
+  CHECK(to_specular(plain(ClosedFormula::kEquation2, 0.03), material).specular[2] == Approx(0.0225));
 }
 
 TEST_CASE("equation (3): by hand, both means, and a channel that says nothing of metallic") {
   const SpecularMaterial material{{0.2f, 0.4f, 0.1f}, {0.1f, 0.05f, 0.3f}, 0.5f};
-  const MetallicMaterial mean = to_metallic(plain(Equation3{MetallicMean::kPlain}, 0.03), material);
+  const MetallicMaterial mean = to_metallic(plain(ClosedFormula::kEquation3, 0.03), material);
   CHECK(mean.base_color[0] == Approx(0.278452).epsilon(1e-5));
   CHECK(mean.base_color[1] == Approx(0.421532).epsilon(1e-5));
   CHECK(mean.base_color[2] == Approx(0.392354).epsilon(1e-5));
   CHECK(mean.metallic == Approx(0.359318).epsilon(1e-5));
-  CHECK(to_metallic(plain(Equation3{MetallicMean::kAlbedo}, 0.03), material).metallic ==
+  CHECK(to_metallic(plain(ClosedFormula::kEquation3ByAlbedo, 0.03), material).metallic ==
         Approx(0.359173).epsilon(1e-5));
   const SpecularMaterial flat{{0.0f, 0.375f, 0.375f}, {0.04f, 0.155f, 0.155f}, 0.5f};
-  CHECK(to_metallic(plain(Equation3{MetallicMean::kPlain}), flat).metallic == Approx(0.5 / 3.0));
+  CHECK(to_metallic(plain(ClosedFormula::kEquation3), flat).metallic == Approx(0.5 / 3.0));
 }
 
 TEST_CASE("Khronos' solver: the published formula by hand") {
   const SpecularMaterial material{{0.5f, 0.3f, 0.2f}, {0.2f, 0.3f, 0.1f}, 0.75f};
-  const MetallicMaterial result = to_metallic(gltf(KhronosSolver{}), material);
+  const MetallicMaterial result = to_metallic(gltf(ClosedFormula::kKhronos), material);
   CHECK(result.metallic == Approx(0.470570).epsilon(1e-5));
   CHECK(result.base_color[0] == Approx(0.620294).epsilon(1e-4));
   CHECK(result.base_color[1] == Approx(0.452893).epsilon(1e-4));
   CHECK(result.base_color[2] == Approx(0.251550).epsilon(1e-4));
   CHECK(result.width == 0.25f);
-  CHECK(to_metallic(gltf(KhronosSolver{}), {{0.5f, 0.5f, 0.5f}, {0.02f, 0.02f, 0.02f}, 0.5f}).metallic ==
-        0.0f);
+  CHECK(to_metallic(gltf(ClosedFormula::kKhronos), {{0.5f, 0.5f, 0.5f}, {0.02f, 0.02f, 0.02f}, 0.5f})
+            .metallic == 0.0f);
 }
 
 TEST_CASE("projection: as good as looking everywhere, off the family too", "[slow]") {
@@ -113,15 +113,16 @@ TEST_CASE("projection: as good as looking everywhere, off the family too", "[slo
 
 TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit maps") {
   constexpr int kCount = 100000;
-  const FamilyError exact = family_error(plain(Projection{0.0}), plain(Equation2{}), 20000, as_it_is);
+  const FamilyError exact =
+      family_error(plain(Projection{0.0}), plain(ClosedFormula::kEquation2), 20000, as_it_is);
   // In 8 bits, some values of F0 equal the F0 of a dielectric and are treated like it. This causes most of
   // the error.
   CHECK(exact.metallic < 5e-5);
   CHECK(exact.base_color < 2e-5);
-  const FamilyError stored = family_error(plain(kClean), plain(Equation2{}), kCount, in_8_bits);
+  const FamilyError stored = family_error(plain(kClean), plain(ClosedFormula::kEquation2), kCount, in_8_bits);
   CHECK(stored.metallic <= 0.002);
   CHECK(stored.base_color <= 0.0015);
-  const FamilyError scaled = family_error(gltf(kClean), gltf(Equation2{}), kCount, in_8_bits);
+  const FamilyError scaled = family_error(gltf(kClean), gltf(ClosedFormula::kEquation2), kCount, in_8_bits);
   CHECK(scaled.metallic <= 0.002);
   // to get its base color, a metal's diffuse is divided by the little light that specular does not reflect
   CHECK(scaled.base_color <= 0.005);
@@ -131,12 +132,13 @@ TEST_CASE("projection: exact on the family, and to a quarter of a step of 8-bit 
 // own convention.
 TEST_CASE("rivals on the family: as far off as they were measured") {
   const FamilyError mean =
-      family_error(plain(Equation3{MetallicMean::kPlain}), plain(Equation2{}), 100000, as_it_is);
+      family_error(plain(ClosedFormula::kEquation3), plain(ClosedFormula::kEquation2), 100000, as_it_is);
   CHECK(mean.metallic == Approx(0.035).epsilon(0.1));
-  const FamilyError weighted =
-      family_error(plain(Equation3{MetallicMean::kAlbedo}), plain(Equation2{}), 100000, as_it_is);
+  const FamilyError weighted = family_error(plain(ClosedFormula::kEquation3ByAlbedo),
+                                            plain(ClosedFormula::kEquation2), 100000, as_it_is);
   CHECK(weighted.metallic == Approx(0.006).epsilon(0.15));
-  const FamilyError khronos = family_error(gltf(KhronosSolver{}), gltf(Equation2{}), 100000, as_it_is);
+  const FamilyError khronos =
+      family_error(gltf(ClosedFormula::kKhronos), gltf(ClosedFormula::kEquation2), 100000, as_it_is);
   // A few dark dielectrics in a thousand become metal and dominate this figure, so it depends on the random
   // numbers.
   CHECK(khronos.metallic > 0.007);
@@ -156,8 +158,8 @@ TEST_CASE("every formula: black, white, specular below F0 and above 1 give a mat
                                   {{big, 0, 0}, {0, big, 0}, big},
                                   {{-big, 1e-40f, 1e-30f}, {1e-40f, -0.0f, 1e-20f}, 1e-40f}};
   for (const WorkflowConversion& conversion :
-       {plain(kClean), plain(kClean, 0.0), gltf(kClean), plain(Equation3{MetallicMean::kPlain}),
-        gltf(Equation3{MetallicMean::kAlbedo}), gltf(KhronosSolver{})}) {
+       {plain(kClean), plain(kClean, 0.0), gltf(kClean), plain(ClosedFormula::kEquation3),
+        gltf(ClosedFormula::kEquation3ByAlbedo), gltf(ClosedFormula::kKhronos)}) {
     INFO(formula_name(conversion.formula));
     for (const SpecularMaterial& material : odd) {
       const MetallicMaterial result = to_metallic(conversion, material);
@@ -181,7 +183,8 @@ TEST_CASE("NaN: in the outputs that depend on it, and nowhere else") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto is_nan = [](float value) { return std::isnan(value); };
   const SpecularMaterial good{{0.4f, 0.3f, 0.2f}, {0.1f, 0.1f, 0.1f}, 0.5f};
-  for (const WorkflowConversion& conversion : {plain(kClean), plain(Equation3{}), gltf(KhronosSolver{})}) {
+  for (const WorkflowConversion& conversion :
+       {plain(kClean), plain(ClosedFormula::kEquation3ByAlbedo), gltf(ClosedFormula::kKhronos)}) {
     SpecularMaterial channel = good, width = good;
     channel.specular[1] = nan;
     width.width = -nan;
@@ -191,7 +194,8 @@ TEST_CASE("NaN: in the outputs that depend on it, and nowhere else") {
     CHECK(!is_nan(of_channel.width));
     CHECK(is_nan(to_metallic(conversion, width).width));
   }
-  for (const WorkflowConversion& conversion : {plain(Equation2{}), gltf(Equation2{})}) {
+  for (const WorkflowConversion& conversion :
+       {plain(ClosedFormula::kEquation2), gltf(ClosedFormula::kEquation2)}) {
     const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled;
     const SpecularMaterial result = to_specular(conversion, {{nan, 0.3f, 0.2f}, 0.5f, 0.5f});
     CHECK(is_nan(result.diffuse[0]));
@@ -206,7 +210,7 @@ TEST_CASE("NaN: in the outputs that depend on it, and nowhere else") {
 TEST_CASE("rows: any count gives the bits of single texels, in place too, and counts what is beyond 0 to 1") {
   std::mt19937 random(3);
   for (const WorkflowConversion& conversion :
-       {plain(kClean), gltf(kClean), gltf(KhronosSolver{}), plain(Equation3{})})
+       {plain(kClean), gltf(kClean), gltf(ClosedFormula::kKhronos), plain(ClosedFormula::kEquation3ByAlbedo)})
     for (const std::size_t count : {1u, 15u, 16u, 17u, 129u}) {
       std::array<std::vector<float>, 7> rows;
       for (auto& row : rows) row.resize(count);
@@ -254,7 +258,7 @@ TEST_CASE("conversions that make no sense are refused") {
   };
   refuses(plain(kClean, 1.2), "out of range (0 to 0.9");
   refuses(plain(Projection{-1.0}), "prior -1 is out of range");
-  refuses(plain(KhronosSolver{}), "scaled diffuse on both sides");
+  refuses(plain(ClosedFormula::kKhronos), "scaled diffuse on both sides");
   WorkflowConversion exponent = plain(kClean);
   exponent.specular.width = RoughnessEncoding::kExponent;
   refuses(exponent, "choose roughness, glossiness or alpha");

@@ -34,7 +34,7 @@ TEST_CASE("equation (2): the pictures of both materials are the same to 1e-6") {
     WorkflowConversion conversion;
     conversion.metallic.dielectric_f0 = f0;
     conversion.specular.width = RoughnessEncoding::kAlpha;
-    conversion.formula = Equation2{};
+    conversion.formula = ClosedFormula::kEquation2;
     for (const float metallic : {0.0f, 0.3f, 0.7f, 1.0f})
       for (const float roughness : {0.4f, 0.7f}) {
         const MetallicMaterial material{{0.9f, 0.5f, 0.1f}, metallic, roughness};

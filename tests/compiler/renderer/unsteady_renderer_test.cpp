@@ -62,11 +62,11 @@ class StrangeRenderer final : public DisguisedRenderer {
 };
 
 Table strange_sweep(const Habits& habits, const std::string& source, const std::string& target,
-                    std::vector<SamplePoint> samples) {
+                    std::vector<MappedTexel> samples) {
   return sweep(StrangeRenderer(habits), sweep_options(source, target, "natural", std::move(samples), 96));
 }
 
-const std::vector<SamplePoint> kSamples = {{0.15, 0.4}, {0.15, 0.8}, {0.4, 0.4}, {0.4, 0.8}, {0.8, 0.8}};
+const std::vector<MappedTexel> kSamples = {{0.15, 0.4}, {0.15, 0.8}, {0.4, 0.4}, {0.4, 0.8}, {0.8, 0.8}};
 
 }  // namespace
 
@@ -119,7 +119,7 @@ TEST_CASE("noise: more than means can remove is refused with the reason") {
 }
 
 TEST_CASE("widths: clamped widths are found, and their rows marked") {
-  const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.1, 0.5}, {0.2, 0.5}, {0.5, 0.5}, {0.9, 0.5}};
+  const std::vector<MappedTexel> samples = {{0.05, 0.5}, {0.1, 0.5}, {0.2, 0.5}, {0.5, 0.5}, {0.9, 0.5}};
   const Table table = strange_sweep({0.0, 0.13, 0.7}, "strange/ggx", "mitsuba/ggx-plain", samples);
   CHECK_THAT(comment(table, "source_effective_alpha"), Contains("0.13") && Contains(" to 0.69"));
   for (const TableRow& row : table.rows) {
@@ -130,7 +130,7 @@ TEST_CASE("widths: clamped widths are found, and their rows marked") {
 }
 
 TEST_CASE("widths: a target is not searched where its width is clamped or a mirror") {
-  const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
+  const std::vector<MappedTexel> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   for (const Habits& habits : {Habits{0.0, 0.13}, Habits{0.0, 0.0, 1e300, 0.13}}) {
     const Table table = strange_sweep(habits, "mitsuba/ggx-plain", "strange/ggx", samples);
     CHECK_THAT(comment(table, "target_effective_alpha"), Contains("0.13") && Contains(" to 1"));
@@ -142,7 +142,7 @@ TEST_CASE("widths: a target is not searched where its width is clamped or a mirr
 }
 
 TEST_CASE("widths: a mirror as the source is flat") {
-  const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
+  const std::vector<MappedTexel> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   const Table table = strange_sweep({0.0, 0.0, 1e300, 0.13}, "strange/ggx", "mitsuba/ggx-plain", samples);
   CHECK_THAT(comment(table, "source_effective_alpha"), Contains("0.13") && Contains(" to 0.5"));
   CHECK(table.rows[0].status == RowStatus::kFlat);
@@ -161,7 +161,7 @@ TEST_CASE("sweep: a black target is refused") {
 }
 
 TEST_CASE("widths: a model whose width has no effect is refused") {
-  const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
+  const std::vector<MappedTexel> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   CHECK_THROWS_WITH(strange_sweep({0.0, 0.3, 0.3}, "strange/ggx", "mitsuba/ggx-plain", samples),
                     Contains("strange/ggx: no width from alpha 0.05 to 0.5 changes its picture"));
 }

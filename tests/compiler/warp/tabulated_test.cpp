@@ -174,8 +174,6 @@ TEST_CASE("tables: incompatible materials are refused", "[warp]") {
                     Catch::Contains("choose plain"));
   TabulatedMaterial damaged = wax;
   damaged.samples(3, 1) = -1.0f;
-  WarpOptions plain;
-  plain.distance = AppearanceDistance::kPlain;
-  CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, plain),
+  CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, AppearanceDistance::kPlain),
                     Catch::Contains("negative or not finite"));
 }

@@ -86,7 +86,7 @@ double tears(const WarpSet& set, const WarpFit& fit) {
   const Points positions = positions_of(fit.compiled.coordinates, set.source.texels);
   Points beside = positions;
   beside.col(0).array() += 0.02;
-  const auto neighbours = NearestTexel(positions).find(beside);
+  const auto neighbours = nearest_texel(positions)(beside);
   double torn = 0.0, count = 0.0;
   for (std::size_t i = 0; i < copy.size(); i += 13, count += 1.0) {
     const auto own = features_of(features.target, set.target.texels[copy[i]]);
@@ -208,9 +208,7 @@ TEST_CASE("warp: an exact table gives only texels of the template, about as near
           "[warp][slow]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
-  WarpOptions options;
-  options.exact = true;
-  const WarpFit exact = fit_warp(set.source, set.target, strokes, options),
+  const WarpFit exact = fit_warp(set.source, set.target, strokes, AppearanceDistance::kRelative, true),
                 blended = fit_warp(set.source, set.target, strokes);
   const auto& entries = std::get<CopiedNodes>(exact.compiled.table.entries);
   CHECK(exact.compiled.table.nodes == 256);

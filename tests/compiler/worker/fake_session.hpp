@@ -43,7 +43,7 @@ class FakeSession {
     WorkerSettings settings;
     if (cache) settings.cache = folder_.path() / "cache";
     settings.processes = 2;
-    settings.limits.seconds = 60.0;
+    settings.seconds = 60.0;
     settings.pause = std::chrono::milliseconds(0);
     return settings;
   }

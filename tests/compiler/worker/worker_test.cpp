@@ -19,7 +19,7 @@ namespace {
 
 std::string render_error(const FakeSession& session, const std::string& fault, double seconds = 60.0) {
   WorkerSettings settings = session.settings();
-  settings.limits.seconds = seconds;
+  settings.seconds = seconds;
   return input_error([&] {
     const WorkerRenderer renderer(session.entry(fault), settings);
     renderer.render(fake_material(), kSmallScene);
@@ -122,7 +122,7 @@ TEST_CASE("worker: those that are lost cost nothing but their processes", "[slow
     INFO(fault);
     const FakeSession session;
     WorkerSettings settings = session.settings();
-    settings.limits.seconds = fault == "hang" || fault == "deaf" ? 2.0 : 60.0;
+    settings.seconds = fault == "hang" || fault == "deaf" ? 2.0 : 60.0;
     std::mutex mutex;
     std::vector<std::string> warnings;
     settings.on_warning = [&](const std::string& message) {
@@ -190,7 +190,7 @@ TEST_CASE("worker: an interruption ends the pause after a loss") {
   const FakeSession session;
   std::atomic<bool> cancelled{false};
   WorkerSettings settings = session.settings();
-  settings.limits.cancelled = &cancelled;
+  settings.cancelled = &cancelled;
   settings.pause = std::chrono::hours(1);
   settings.on_warning = [&](const std::string&) { cancelled = true; };
   const WorkerRenderer renderer(session.entry("die"), settings);
@@ -316,7 +316,7 @@ TEST_CASE("worker: a wait ends when the program is asked to stop") {
   const FakeSession session;
   std::atomic<bool> cancelled{false};
   WorkerSettings settings = session.settings();
-  settings.limits.cancelled = &cancelled;
+  settings.cancelled = &cancelled;
   const WorkerRenderer renderer(session.entry("hang"), settings);
   cancelled = true;
   try {

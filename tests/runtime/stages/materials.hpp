@@ -39,7 +39,7 @@ inline remap::WorkflowConversion gltf(remap::WorkflowFormula formula) {
 }
 
 // Returns a network with two hidden layers.
-inline remap::LearnedNetwork random_network() {
+inline remap::Network random_network() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> weight(-0.7, 0.7);
   remap::Network network{remap::Activation::kTanh,
@@ -53,7 +53,7 @@ inline remap::LearnedNetwork random_network() {
     for (std::size_t i = 0; i < sizes[l + 1]; ++i) layer.biases.push_back(weight(random));
     network.layers.push_back(layer);
   }
-  return {network};
+  return network;
 }
 
 inline remap::MetallicMaterial random_metallic(std::mt19937& random) {

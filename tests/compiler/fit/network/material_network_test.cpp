@@ -28,7 +28,7 @@ MaterialTable family_table(std::size_t count, double f0) {
   std::mt19937 random(2);
   for (std::size_t i = 0; i < count; ++i) {
     const MetallicMaterial metal = workflow_test::random_metallic(random);
-    const SpecularMaterial specular = to_specular(workflow_test::plain(Equation2{}, f0), metal);
+    const SpecularMaterial specular = to_specular(workflow_test::plain(ClosedFormula::kEquation2, f0), metal);
     NamedRow row;
     row.source = {0.5, metal.base_color[0], metal.base_color[1], metal.base_color[2], metal.metallic};
     row.target = {0.25,

@@ -73,8 +73,8 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
     for (int seed = 1; seed <= seeds; ++seed) {
       FitOptions options;
       options.kind = "parametric";
-      options.regression.seed = static_cast<std::uint64_t>(seed);
-      options.regression.form = form;
+      options.seed = static_cast<std::uint64_t>(seed);
+      options.form = form;
       const Fit fit = fit_table(table, bytes, options).fit;
       CHECK(fit.split.held_out_rows == 144);
       mean.alpha += fit.alpha_error.rms / seeds;

@@ -199,12 +199,12 @@ TEST_CASE("svr: 2000 of 100000 rows train, and the record says so") {
 }
 
 TEST_CASE("svr: one sample is drawn from each interval") {
-  SvrSamples samples{1, {}, {}};
+  Samples samples{1, 1, {}, {}};
   for (int i = 0; i < 1000; ++i) {
     samples.inputs.push_back(i);
     samples.outputs.push_back(-i);
   }
-  const SvrSamples drawn = draw_evenly(samples, 30, 7);
+  const Samples drawn = draw_evenly(samples, 30, 7);
   REQUIRE(drawn.count() == 30);
   for (std::size_t k = 0; k < 30; ++k) {
     CHECK(std::floor(drawn.inputs[k] * 30.0 / 1000.0) == Approx(static_cast<double>(k)).margin(1.0));

@@ -98,7 +98,7 @@ TEST_CASE("Polygons are taken to triangles, corners are shared, materials are pa
   REQUIRE(scene.shapes.size() == 1);
   REQUIRE(scene.shapes[0].primitives.size() == 2);
   REQUIRE(scene.materials.size() == 2);
-  CHECK(scene.materials[0].name == "a  b");
+  CHECK(scene.materials[0] == "a  b");
   CHECK(scene.shapes[0].primitives[0].indices.size() == 9);
   CHECK(scene.shapes[0].primitives[0].vertex_count() == 4);
   CHECK(scene.shapes[0].primitives[1].indices.size() == 6);
