@@ -19,8 +19,8 @@ std::vector<Parameter> colors_among(std::vector<Parameter> parameters) {
   return parameters;
 }
 
-// Returns the color space of each of `colors` that `words` name. Throws kUsage for a word that applies to
-// none of them. `reason` ends the message: "no specular is written".
+// Returns the color spaces that `words` give to `colors`. Throws kUsage for a word that applies to none of
+// these colors. `reason` ends the message, for example "no specular is written".
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {
@@ -96,7 +96,7 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
   for (const InputWord& word : options.inputs) refuse_input("--input", word.parameter);
 }
 
-// Refuses options for a folder if there is one set, and maps that cannot be used with a folder.
+// Refuses options of folders if there is only one set, and maps that cannot be used with a folder.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool is_tree = !options.folder.empty();
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");

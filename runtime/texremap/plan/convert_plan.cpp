@@ -103,7 +103,8 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   return manifest;
 }
 
-// Returns values as numbers from 0 to 1. A single value up to 100 is per cent; others are 0 to 255.
+// Returns values as numbers from 0 to 1. Treats a single value up to 100 as per cent, and other values as 0
+// to 255.
 std::string fractions_text(const std::vector<float>& values) {
   const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
   std::string text;
@@ -205,7 +206,8 @@ void refuse_engine(const ConvertOptions& options) {
       " (use --to gltf, which engines import, or export the textures and convert their folder)");
 }
 
-// Fills in missing options: without --to, assets become gltf. Without --output the second path is the result.
+// Fills in missing options. Without --to, assets become gltf. Without --output, the second path is the
+// result.
 void complete_asset_options(ConvertOptions& options) {
   const bool is_gltf = options.to.empty() || options.to.name == "metallic";
   if (engine_layout_of(options.to.word()) == nullptr && is_gltf)

@@ -33,7 +33,7 @@ std::string material_text(const ChosenConverter& chosen) {
   return text;
 }
 
-// Returns the domain that some texels were outside of.
+// Returns the domain that some texels are outside of.
 std::string outside_text(const ChosenConverter& chosen) {
   const std::string domain = domain_text(chosen.domain());
   return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
@@ -108,7 +108,8 @@ std::string value_text(const SurfaceValue& value) {
   return text;
 }
 
-// Prints the inputs that the shader needs beside the maps, and those that it cannot show.
+// Prints the inputs that the user must set in the shader, because no map holds them. Also prints the inputs
+// that have no effect in the target.
 void print_effect(const ConvertPlan& plan, const std::string& context, const TranslationEffect& effect) {
   const std::string& target = plan.sets()->chosen.info().target.model;
   std::vector<std::string> values;
@@ -158,7 +159,7 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
   visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
 }
 
-// Below this value no picture shows the error of a material.
+// A picture does not show an error below this value.
 constexpr double kShownError = 5e-4;
 
 std::string error_text(const AssetMaterial& material) {

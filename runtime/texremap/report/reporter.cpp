@@ -78,7 +78,7 @@ void require_success(const Outcome& outcome) {
     if (!list.has_several)
       throw input_error(display_path(outcome.reports.front().name) + ": " +
                         *outcome.reports.front().failure_text());
-    int passing = 0;  // code of the first failure that may pass in another run
+    int passing = 0;  // errno of the first failure that may not happen in another run
     for (const JobReport& report : outcome.reports)
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
     throw Error(
@@ -145,7 +145,7 @@ void Reporter::write(const Json& line) {
 }
 
 void Reporter::add(const JobReport& report) {
-  if (!plan_.list.has_several) return;  // finish() knows the time of all
+  if (!plan_.list.has_several) return;  // finish() prints it, with the time of the whole run
   print_job(plan_, report, warnings_);
   write({{noun_of(plan_.list.kind), job_json(plan_, report)}});
 }
