@@ -14,9 +14,10 @@ namespace {
 struct NamedEnd {
   std::string name;
   const WorkflowModel* model = nullptr;  // null if `name` is a BRDF model
-  std::optional<WorkflowKind> kind;      // kind in the request
+  std::optional<WorkflowKind> kind;      // kind that the user requested
 
-  // The graph gives the roughness parameter of a BRDF model. The search for a path refuses unknown models.
+  // The graph knows the roughness parameter of a BRDF model. Unknown models are refused later, in the search
+  // for a path.
   const ConverterGraph* graph = nullptr;
 
   bool has_workflow() const { return model != nullptr || kind; }
@@ -29,7 +30,7 @@ struct NamedEnd {
 
 constexpr std::size_t kNamesShown = 5;
 
-// Refuses a name that is not a model, a renderer or a workflow, and suggests the closest of all names.
+// Refuses a name that is not a model, a renderer or a workflow, and suggests the closest name.
 void require_known(const std::string& word, const std::string& name, const ConverterGraph& graph,
                    const std::string& all_names) {
   if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
@@ -53,8 +54,9 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
   return end;
 }
 
-// Returns the model that the target names. For a renderer this is the model closest to the source. A workflow
-// around the source's own model of that renderer needs no other model.
+// Returns the model that the target names. If it names a renderer, this is the renderer's model that is
+// closest to the source. If the source is a model of that renderer and a workflow is converted, the model
+// stays.
 std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
   const std::string& to = request.target.name;
   const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
@@ -68,7 +70,7 @@ std::string target_named(const ConversionRequest& request, const NamedEnd& from)
                       " already (choose another model)");
   }
   const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, request.via});
-  if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses it
+  if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses this model
   return target_model(closest_path(paths));
 }
 
@@ -80,8 +82,8 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
-// Returns the surface that a name means. The words `openpbr` and `standard-surface` mean metallic workflows
-// elsewhere.
+// Returns the surface that a name means. In other conversions, the words `openpbr` and `standard-surface`
+// mean metallic workflows.
 std::optional<Surface> surface_of(const ModelName& model) {
   constexpr NamedValues<Surface, 4> kWords = {{{Surface::kOpenPbr, "openpbr"},
                                                {Surface::kOpenPbr, "open-pbr-surface"},
@@ -98,7 +100,7 @@ std::optional<Surface> surface_of(const ModelName& model) {
 
 bool is_hub(Surface surface) { return surface == Surface::kOpenPbr || surface == Surface::kStandardSurface; }
 
-// Sets the translation if the request asks for one.
+// Sets the translation between surfaces if the request asks for one.
 void choose_translation(const ConversionRequest& request, ConversionChoice& choice) {
   const auto source = surface_of(request.source), target = surface_of(request.target);
   if (!request.translates_surfaces || request.uses_fit_file || !source || !target || *source == *target ||
@@ -122,13 +124,13 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   name(*choice.source, *source);
   name(*choice.target, *target);
   choice.translation = SurfaceTranslation{*source, *target};
-  choice.notes.clear();  // aliases mean surfaces here
+  choice.notes.clear();  // notes on aliases do not apply, because names mean surfaces here
   choice.changes_nothing = false;
 }
 
-// Sets the diffuse convention of each end whose model leaves it open. A requested convention comes first.
-// Otherwise the end gets the convention of the other end, so that a round trip changes nothing. If both
-// models are fixed, a request overrides the source's convention.
+// Sets the diffuse convention of each end whose model leaves it open. An end gets the requested convention.
+// Without a request, it gets the convention of the other end, so that a round trip changes nothing. If both
+// models have a fixed convention, a request overrides the source's.
 void choose_diffuse(const ConversionRequest& request, const WorkflowModel& source,
                     const WorkflowModel& target, ConversionChoice& choice) {
   std::vector<WorkflowEnd*> open;
@@ -240,7 +242,7 @@ WorkflowStages stages_of(const ConversionChoice& choice, const Converter* brdf) 
 
 namespace {
 
-// Adds the material around the BRDF.
+// Adds the stages of the workflows around the BRDF.
 BuiltConversion with_material(const ConversionChoice& choice, BuiltConversion conversion,
                               InstructionSet set) {
   if (conversion.brdf != nullptr && !conversion.brdf->self_test())

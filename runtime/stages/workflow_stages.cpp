@@ -36,8 +36,9 @@ class ToSpecular final : public Stage {
   decltype(Kernels::to_specular) kernel_;
 };
 
-// LayerDielectrics applies equation (2) with an F0 for each texel. The equation is linear in F0. The kernel
-// makes a metal over black dielectrics; then the dielectrics' F0 and their share of diffuse are added.
+// LayerDielectrics applies equation (2) with an F0 for each texel. The equation is linear in F0. So the
+// kernel computes it for F0 = 0, and then this stage adds the F0 of the dielectrics and its effect on
+// diffuse.
 class LayerDielectrics final : public Stage {
  public:
   // `metal` applies equation (2) with an F0 of 0, and makes plain diffuse.
@@ -78,7 +79,7 @@ class ScaleDiffuse final : public Stage {
     std::array<float, kBlockTexels> left;
     for (std::size_t i = 0; i < block.size(); ++i)
       left[i] = 1.0f - clamped(std::max({specular[0][i], specular[1][i], specular[2][i]}));
-    for (std::size_t c = 3; c-- > 0;)  // red last: grey uses its row, which may be the first of `out`
+    for (std::size_t c = 3; c-- > 0;)  // red last, because grey reads its row, which may be out[0]
       for (std::size_t i = 0; i < block.size(); ++i)
         out[c][i] = to_ == DiffuseConvention::kScaled && left[i] > 0.0f ? diffuse[c][i] / left[i]
                                                                         : diffuse[c][i] * left[i];
@@ -89,10 +90,10 @@ class ScaleDiffuse final : public Stage {
   DiffuseConvention to_;
 };
 
-// KeepDielectrics runs the BRDF's stages between two metallic workflows. The dielectric of one end becomes
-// the dielectric of the other end, whose F0 is fixed. So only the metal's share of specular follows the BRDF.
-// Otherwise a dielectric would become slightly metallic if the BRDF changes its F0. If the law of specular is
-// affine, metallic stays unchanged.
+// KeepDielectrics runs the stages of a BRDF between two metallic workflows. A dielectric becomes a dielectric
+// of the target, whose F0 is fixed. So only the specular of metals follows the BRDF. Otherwise, a BRDF that
+// changes the F0 of a dielectric would make it slightly metallic. If the formula for specular is affine,
+// metallic stays unchanged.
 class KeepDielectrics final : public Stage {
  public:
   KeepDielectrics(const StageList& brdf, double source_f0, double target_f0)
@@ -129,11 +130,11 @@ class KeepDielectrics final : public Stage {
   float source_f0_, target_f0_;
 };
 
-// Project converts to metallic by the projection, with the requested parts of its diagnosis.
+// Project converts to metallic by the projection, and makes the requested parts of its diagnosis.
 class Project final : public Stage {
  public:
-  // `width` is the parameter that the block has. With `reads_alpha` the workflows do not know this parameter,
-  // and `use` has alpha. With `widens`, surfaces without a highlight become rough.
+  // `width` is the parameter in the block. With `reads_alpha`, the workflows do not know this parameter, and
+  // `use` has alpha. With `widens`, surfaces without a highlight become rough.
   Project(const workflow_code::Conventions& use, double prior, RoughnessEncoding width, bool reads_alpha,
           bool widens, InstructionSet set)
       : use_(use),
@@ -197,7 +198,7 @@ bool encodes_alpha(RoughnessEncoding width) {
 }
 
 // Returns the conventions between a metallic workflow and the specular workflow inside the converter. Both
-// use the width of the block.
+// use the width parameter of the block.
 workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
                                                RoughnessEncoding width, bool to_metallic,
                                                const std::string& context) {
@@ -207,8 +208,9 @@ workflow_code::Conventions conventions_between(MetallicWorkflow metallic, Diffus
   return conventions_of(specular, metallic, to_metallic);
 }
 
-// Returns the diffuse convention between the stages. It is the convention of the specular end, so that a
-// conversion without BRDF equals a header bit for bit. It is plain if specular changes in between.
+// Returns the diffuse convention between the stages. Without a BRDF, it is the convention of the specular
+// end, so that results equal a generated header's bit for bit. With a BRDF, it is plain, because specular
+// changes in between.
 DiffuseConvention diffuse_between(const WorkflowStages& stages) {
   const bool is_one_way = kind_of(stages.source) != kind_of(stages.target);
   if (stages.brdf != nullptr || !is_one_way) return DiffuseConvention::kPlain;
