@@ -1,4 +1,5 @@
-// This file lowers a mapping to the compact form, with an error bound that is proven over the whole domain.
+// This file replaces a mapping by a form of a few numbers (lowers it), with an error bound that is proven
+// over the whole domain.
 #pragma once
 
 #include "lower/fit.hpp"
@@ -13,7 +14,7 @@ struct LoweringOptions {
 
 struct Lowered {
   CompactForm form;
-  // These bounds are proven: |form in float arithmetic - mapping| over the whole domain, below the limits.
+  // These bounds are proven for |form in float arithmetic - mapping| over the whole domain, below the limits.
   double alpha_bound = 0.0, specular_bound = 0.0;
 };
 
@@ -21,7 +22,8 @@ struct Lowered {
 // stays unchanged. Throws kNumeric if no form is proven within ten times the tolerances.
 Lowered lower(const Fit& fit, const LoweringOptions& options = {});
 
-// Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit stays.
+// Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit is
+// unchanged.
 void add_converter(Fit* fit, const LoweringOptions& options = {});
 
 }  // namespace remap

@@ -27,13 +27,13 @@ struct PairOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
-  bool accept_light = false;  // continue even if require_light() (table/light.hpp) refuses
+  bool accept_light = false;  // continue even if require_light() (table/light.hpp) would throw
 };
 
 // A SweepOptions holds the settings of a sweep. Every field is recorded in the table's comments.
 struct SweepOptions : PairOptions {
-  std::string sampling;              // how the samples were chosen, in words
-  std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
+  std::string sampling;              // description of how the samples were chosen
+  std::vector<SamplePoint> samples;  // in the order of the table; specular is canonical
   int stages = 2;                    // 1, 2 or 3 (section 3.1)
   double diffuse = 0.0;              // diffuse of the source in every sample
 };

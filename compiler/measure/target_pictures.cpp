@@ -17,7 +17,7 @@ constexpr double kDifferenceStep = 1e-3;
 // This many pixels are interpolated together, because their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
-// A Window holds the nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
+// A Window holds the nodes of the bank around `alpha`, and their Lagrange basis in log(alpha).
 struct Window {
   std::size_t first;
   LagrangeBasis basis;
@@ -113,7 +113,7 @@ void BankPictures::add_at_width(std::span<const RoleValues> points, const std::v
                         {std::vector<float>(pixels), std::vector<float>(pixels),
                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}});
   }
-  // these blocks are used for all points
+  // the same blocks are used for all points
   std::vector<PixelBlock> interpolated(members), interpolated_rise(members);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);

@@ -15,8 +15,7 @@ namespace {
 // column until it has kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// In scattered rows, a column is treated as complete if it ends within this fraction of the highest
-// specular1.
+// If rows are scattered, a column is complete if it ends within this fraction of the highest specular1.
 constexpr double kSameReach = 0.9;
 // Widths that differ by less than this fraction, a few units of a table's last digit, are treated as one.
 constexpr double kSameWidth = 1e-9;
@@ -40,7 +39,7 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
 // A Column holds rows of similar width.
 struct Column {
   double first = INFINITY, last = -INFINITY;  // smallest and largest alpha1 of its usable rows
-  double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
+  double cut = INFINITY;                      // lowest specular1 that is clamped and has no answer
   double reach = 0.0;                         // highest usable specular1 below `cut`
   bool is_cut() const { return std::isfinite(cut); }
 };

@@ -1,7 +1,7 @@
-// This file handles the light of two renderers, which a sweep makes equal before it compares their
-// highlights. It multiplies the source's pictures by the factor that makes white diffuse spheres of both look
-// the same. This is right if only the lights differ. If the diffuse lobes differ (Oren-Nayar against
-// Lambert), it wrongly changes the specular of every row.
+// This file handles the light of two renderers. A sweep makes it equal before it compares highlights. For
+// this, it multiplies the source's pictures by the factor that makes white diffuse spheres of both renderers
+// look the same. This is right if only the lights differ. If diffuse lobes differ (Oren-Nayar and Lambert),
+// it wrongly changes the specular of every row.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,27 @@
 
 namespace remap {
 
-// These comments of a table hold the factor, how much the diffuse pictures still differ after it (RMS), and
-// whether a user has accepted both.
+// These comments of a table hold the factor, the RMS difference of diffuse pictures that remains, and whether
+// a user has accepted both.
 inline constexpr const char* kLightScaleComment = "irradiance_scale";
 inline constexpr const char* kDiffuseErrorComment = "diffuse_error";
 inline constexpr const char* kLightAcceptedComment = "light_accepted";
 
 struct LightMatch {
-  double scale = 1.0;          // multiplies the source's pictures, and so the specular of the target
+  double scale = 1.0;  // factor for the source's pictures, which also changes the specular of the target
   double diffuse_error = 0.0;  // relative to the source's picture
   bool accepted = false;
 };
 
-// A LightRemark is the warning about a match of light.
+// A LightRemark is a warning about different light of two renderers.
 struct LightRemark {
-  bool is_error = false;  // specular changes by more than kMostLightChange, and nobody has accepted it
-  std::string text;       // `what is wrong (what to do)`, with the numbers
+  bool is_error = false;  // specular changes by more than kMostLightChange, and no user accepted this
+  std::string text;       // `what is wrong (what to do)`, with numbers
 };
 
-// A scale or difference beyond this value is reported. Noise and rounding errors of renderers are smaller.
+// A larger scale or difference is reported. Noise and rounding errors of renderers are smaller.
 inline constexpr double kSaidLightChange = 0.01;
-// Beyond this value, the scale changes specular by more than a fit's errors and than most people see.
+// A larger scale changes specular by more than the error of a fit, and most people see it.
 inline constexpr double kMostLightChange = 0.05;
 
 // Returns the remark, or nothing if the light matches. Sweeps, checks, fits and cards all use this rule.
@@ -40,7 +40,7 @@ std::optional<LightRemark> light_remark(const LightMatch& match);
 // Throws kInput, beginning with `context`, if the remark is an error.
 void require_light(const LightMatch& match, const std::string& context);
 
-// Returns the match that comments record. Comments without one mean equal light.
+// Returns the match that comments record. If they record none, the light is equal.
 LightMatch light_match(const Comments& comments);
 
 }  // namespace remap
