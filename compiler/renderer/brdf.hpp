@@ -1,6 +1,6 @@
-// This file holds the BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section
-// 4), and the lobes of files that hold an exponent. Values are reflectance per steradian without the cosine
-// of the light.
+// This file holds the built-in BRDF models, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4),
+// and the lobes of file formats that store an exponent. Values are reflectance per steradian, without the
+// cosine of the light.
 #pragma once
 
 #include <string>
@@ -52,7 +52,7 @@ struct BrdfModel {
 };
 
 // Returns the built-in model `name`, for callers whose lights are not in a Scene. Throws kUsage for an
-// unknown name (with the closest), and for a model whose specular is neither a scale nor F0.
+// unknown name, with the closest name, and for a model whose specular is neither a scale nor F0.
 BrdfModel builtin_brdf(const std::string& name);
 
 // Returns true if builtin_brdf() knows the model and its specular is a scale or F0.
@@ -67,8 +67,8 @@ struct MapModel {
 };
 
 // Returns the built-in model `name` for maps with values of 0 to 1. For a model with an index of refraction,
-// the map holds F0. Throws kUsage for an unknown name (with the closest), and for conductors, because F0 does
-// not determine their index.
+// the map holds F0. Throws kUsage for an unknown name, with the closest name, and for conductors, because F0
+// does not determine their index.
 MapModel builtin_map_model(const std::string& name);
 
 // Returns the lobe of a perfect mirror: reflectance without Fresnel.
@@ -76,8 +76,8 @@ double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 
-// Return the normal distribution of microfacets, normalised to projected area 1, and the separable Smith
-// shadowing of one direction (Walter et al. 2007). Both accept kBeckmann, kGgx, kAs.
+// Return the normal distribution of microfacets, normalised to projected area 1, and the Smith shadowing of
+// one direction in its separable form (Walter et al. 2007). Both accept kBeckmann, kGgx and kAs.
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
 double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
 

@@ -17,7 +17,7 @@
 namespace remap {
 namespace {
 
-// This many BRDFs suffice: a file has 33 MB on disk, and the database has 100 of them.
+// More BRDFs are not needed. A file has 33 MB on disk, and the database has 100 of them.
 constexpr std::size_t kMostBrdfs = 10'000;
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ std::optional<fs::path> table_in(const fs::path& folder) {
   return std::nullopt;
 }
 
-// A ProfileColumn is a color channel and radius, and the index of its column or channel in the file.
+// A ProfileColumn is a color channel, a radius, and the index of the file's column or channel.
 struct ProfileColumn {
   char channel = 'Y';
   double radius = 0.0;

@@ -17,7 +17,7 @@ bool is_base_color(Role role) { return role == Role::kBaseColor; }
 bool is_specular(Role role) { return role == Role::kSpecular; }
 bool is_metallic(Role role) { return role == Role::kMetallic; }
 
-// Returns true if a set has a color of the diffuse lobe and no map of the specular lobe.
+// Returns true if a set has a color of the diffuse lobe, and no map of the specular lobe.
 bool is_albedo(const FoundSet& set) {
   const auto has = [&](bool (*wanted)(Role)) { return !uses(set, wanted).empty(); };
   return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
@@ -58,8 +58,8 @@ struct MaterialRequest {
   bool from_metallic = false, is_albedo = false;
 };
 
-// Requests the maps of the specular workflow if they exist. Otherwise it requests the maps of the metallic
-// workflow, and otherwise the diffuse map.
+// Requests the maps of the specular workflow if the set has them. Otherwise, requests the maps of the
+// metallic workflow. If these are missing, too, requests the diffuse map.
 MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
   const FoundSet set = only_set(folder, albedo);
   MaterialRequest result;

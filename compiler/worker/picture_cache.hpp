@@ -1,4 +1,4 @@
-// This file keeps rendered pictures on disk, so that none is rendered twice.
+// This file keeps rendered pictures on disk, so that no picture is rendered twice.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ class PictureCache {
   // `renderer` is WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // A Found is what the cache has for a request. If the file cannot be used, `image` is empty and `damage`
-  // has the reason (`FILE: its checksum does not match its content`).
+  // A Found is what the cache has for a request. If the file cannot be used, `image` is empty, and `damage`
+  // is the reason, such as `FILE: its checksum does not match its content`.
   struct Found {
     std::optional<Image> image;
     std::string damage;
