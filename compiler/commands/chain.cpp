@@ -1,4 +1,4 @@
-// These commands, `remapc chain` and `remapc invert`, make a fit from other fits.
+// This file is `remapc chain` and `remapc invert`. They make a fit from other fits.
 #include <iostream>
 
 #include "build/build.hpp"

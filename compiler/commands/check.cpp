@@ -17,7 +17,7 @@ struct CheckOptions {
   bool json = false, accept_light = false;
 };
 
-// A Checked holds the findings on a table of either form.
+// A Checked holds what is wrong with a table of either form.
 struct Checked {
   std::string name;
   std::size_t rows = 0;

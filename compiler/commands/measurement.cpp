@@ -27,7 +27,8 @@ std::string pictures_text(const PictureCount& pictures) {
          (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
-// Returns `about 12:30 in all`, or nothing until some rows and ten pictures are done, and after the end.
+// Returns `about 12:30 in all`. Returns an empty text before some rows and ten pictures are done, and after
+// the end.
 std::string estimate_text(double seconds, const PictureCount& pictures, std::size_t done, std::size_t rows) {
   constexpr std::size_t kEnoughPictures = 10;
   if (pictures.rendered + pictures.cached < kEnoughPictures || done == 0 || done == rows) return "";

@@ -113,7 +113,7 @@ void print(const SetFigure& figure) {
             << (figure.copied ? "; numbers copied " + text(*figure.copied) : "") << "\n";
 }
 
-// Resolves the conversion as `texremap convert` does, and writes nothing.
+// Interprets the conversion like `texremap convert`, but writes nothing.
 ConvertPlan plan_of(const PreviewCommand& command) {
   ConvertOptions options;
   options.folder = command.subject;

@@ -136,7 +136,7 @@ struct PrintMapping {
 
 std::string percent_text(double share) { return number_text(rounded_up(100.0 * share, 2)) + " %"; }
 
-// Returns the fractions of the domain in which the target is at no limit, at the limit of alpha, at the limit
+// Returns four fractions of the domain: where the target is at no limit, at the limit of alpha, at the limit
 // of specular, and at both.
 std::array<double, 4> limit_shares(const Fit& fit) {
   constexpr int kSteps = 100;
@@ -191,7 +191,7 @@ void print_lowering(const Fit& fit) {
             << " (proven)\n";
 }
 
-// Prints the round trip through the inverse converter in `folder`, if there is one.
+// If `folder` has the inverse converter, prints the error of the round trip through it.
 void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
   const auto path = folder / (converter_id(fit.target.model, fit.source.model) + ".json");
   if (!std::filesystem::is_regular_file(path)) return;

@@ -19,7 +19,7 @@ struct SweepCommand : MeasurementOptions {
   std::size_t roughness_samples = 30, specular_samples = 30;
   Range roughness_range{0.01, 1.0};
   std::optional<Range> specular_range;  // if missing, the model's range
-  TableInput samples_of;                // the table whose samples are used; without a path, a grid
+  TableInput samples_of;                // a table whose samples are used; if it has no path, a grid is used
 };
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {

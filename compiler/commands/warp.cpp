@@ -28,13 +28,13 @@ struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
   std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string distance;                              // if empty: relative, or plain if both are profiles
+  std::string distance;  // if empty: plain if both materials are profiles, otherwise relative
   bool exact = false;
   std::filesystem::path output, copy, report;
   bool force = false, json = false;
 };
 
-// Returns the stroke pairs of all options, at least one.
+// Returns the stroke pairs of all options. There is at least one.
 std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
                                    const MapFrame& target) {
   std::vector<StrokePair> strokes;
@@ -200,7 +200,7 @@ void require_copy_alone(const WarpCommand& command) {
     throw usage_error("--report: not available for tables such as " + table + " (remove this option)");
 }
 
-// Copies texels, because tables have no parameters to fit.
+// Copies texels, because a table has no parameters to fit.
 void warp_tables(const WarpCommand& command) {
   require_copy_alone(command);
   const MaterialSet source = read_material_set(command.source, command.source_model),

@@ -1,4 +1,5 @@
-// This file writes conversions between workflows as C++: runtime/stages/code with both ends' conventions.
+// This file writes conversions between workflows as C++. It takes the code of runtime/stages/code and adds
+// the conventions of both ends.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"
@@ -7,11 +8,11 @@
 namespace remap {
 namespace {
 
-// A CodeOf returns the code of each formula.
+// A CodeOf returns the code for a formula.
 struct CodeOf {
   MaterialCode operator()(const Equation2&) const {
-    // Compilers may fuse products, so results may differ slightly. The difference is larger for conversions
-    // to the metallic workflow.
+    // Compilers may fuse products, so results may differ slightly. Conversions to the metallic workflow
+    // differ more.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
   MaterialCode operator()(const Projection& projection) const {

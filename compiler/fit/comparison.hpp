@@ -1,4 +1,5 @@
-// This file compares fits of one table. It chooses the fit with the fewest numbers that looks like the best.
+// This file compares fits of one table. It chooses the fit with the fewest numbers among those that look like
+// the best.
 #pragma once
 
 #include <vector>
@@ -10,23 +11,23 @@
 namespace remap {
 
 struct Candidate {
-  CandidateRecord record;  // the verdict is empty while it may be chosen
-  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
+  CandidateRecord record;  // its verdict is empty while the candidate may be chosen
+  Fit fit;                 // has errors on the held-out rows; has no meaning if the candidate failed
 };
 
 struct Comparison {
-  std::vector<Candidate> candidates;  // in the order in which they are printed
+  std::vector<Candidate> candidates;  // in the order for printing
   std::size_t chosen = 0;
 };
 
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
-// without its mapping. If `pictures` is not null and knows the pair, pictures then refine the forms.
-// Otherwise only rows are used.
+// without its mapping. If `pictures` is not null and has the pair of models, pictures then refine the forms.
+// Otherwise, only rows are used.
 //
-// Of the sound candidates, it chooses the one with the fewest numbers whose judged errors are close to the
-// best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit
-// step). Without pictures both relative errors on the held-out rows must be within .01, which pictures do not
-// show, or within 1 %. Throws kNumeric with the reasons if no candidate is sound.
+// Among the sound candidates whose errors are close to the best, chooses the one with the fewest numbers.
+// With pictures, both errors must be within 1 % of the best (or the RMSE within .05 points, which is an
+// eighth of an 8-bit step). Without pictures, both relative errors on the held-out rows must be within 1 %,
+// or within .01, which pictures do not show. Throws kNumeric with the reasons if no candidate is sound.
 Comparison compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
                          const FitProgress& progress);
 

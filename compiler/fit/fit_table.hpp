@@ -1,4 +1,5 @@
-// This file fits a table: split of the rows, regression, errors on the held-out rows, provenance.
+// This file fits a table. It splits the rows, fits them, computes errors on the held-out rows, and records
+// how the fit was made.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace remap {
 struct FitOptions {
   std::string id;                // if empty, `<source>_to_<target>` from the table
   std::string_view kind;         // one of kFitKinds; if empty, compare_forms() chooses
-  RegressionOptions regression;  // its seed is also the seed of the split
+  RegressionOptions regression;  // its seed also splits the rows
   double held_out_fraction = 0.2;
   bool accept_light = false;  // see light_remark() (table/light.hpp)
 };
@@ -24,7 +25,7 @@ struct FitOptions {
 // A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
 struct FittedTable {
   Fit fit;
-  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
+  std::vector<Fit> compared;  // all compared fits, also `fit`, in the order of fit.candidates; or empty
 };
 
 // Fits `table`. `bytes` is its file, whose SHA-256 the fit records. Throws kInput if the table does not name

@@ -29,15 +29,15 @@ struct MaterialInput {
 };
 
 struct MaterialModel {
-  std::string id;     // the node name in MaterialX if it has the model: `open_pbr_surface`
+  std::string id;     // name of the node in MaterialX, such as `open_pbr_surface`, if there is one
   std::string title;  // name and version
   std::vector<MaterialInput> inputs;
 
   const MaterialInput* find(std::string_view name) const;
 };
 
-// A TranslationLine is a statement with the comment above it. The name of a source's input is `source.x`, and
-// the name of a target's input is `target.x`.
+// A TranslationLine is a statement with the comment above it. `source.x` is an input of the source, and
+// `target.x` an input of the target.
 struct TranslationLine {
   std::string comment;
   Statement statement;
@@ -46,7 +46,7 @@ struct TranslationLine {
 struct Translation {
   const MaterialModel* from = nullptr;
   const MaterialModel* to = nullptr;
-  std::string variant;  // such as `_specular`, for a second translation between the same models
+  std::string variant;  // such as `_specular`, if this is a second translation between the same models
   std::string comment;  // the comment at the top of the file
   std::vector<TranslationLine> lines;
 
@@ -61,13 +61,14 @@ struct MaterialLibrary {
   std::vector<Translation> translations;
 };
 
-// These functions throw kInput with the line and what is wrong. `name` is the name of the file, for messages.
+// These functions throw kInput with the line and what is wrong in it. `name` is the name of the file, for
+// messages.
 std::vector<MaterialModel> parse_models(std::string_view text, const std::string& name);
 std::vector<FormulaFunction> parse_functions(std::string_view text, const std::string& name);
 Translation parse_translation(std::string_view text, const std::string& name, const MaterialModel& from,
                               const MaterialModel& to, const std::vector<FormulaFunction>& functions);
 
-// Returns the descriptions that are compiled in.
+// Returns the descriptions that are compiled into the program.
 const MaterialLibrary& material_library();
 
 }  // namespace remap

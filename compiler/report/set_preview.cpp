@@ -76,7 +76,8 @@ ScaledSet scaled_set(TextureSet& set, int side) {
   return scaled;
 }
 
-// Converts all texels. `width` is the encoding of the roughness in `set`; the result's is the converter's.
+// Converts all texels. `width` is the encoding of the roughness in `set`. The result has the encoding of the
+// converter.
 ScaledSet converted(const Converter& converter, ScaledSet set, RoughnessEncoding width) {
   change_convention(width, converter.info().source.roughness, set.rows.at(Parameter::kRoughness).front());
   MaterialRows<const float> in;
@@ -139,7 +140,7 @@ class ShownModel {
   }
 
  private:
-  static constexpr double kLeastAlpha = 0.01;  // a smoother ball shows the light's own pixels
+  static constexpr double kLeastAlpha = 0.01;  // a smoother ball would show the pixels of the light
   std::string model_;
   std::unique_ptr<Converter> to_shown_;  // null if the model itself is shown
 };

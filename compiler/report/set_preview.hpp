@@ -1,5 +1,5 @@
-// This file previews the conversion of texture sets: the maps on a ball in the source's shading, then in the
-// target's shading with the same numbers and with converted numbers.
+// This file previews the conversion of texture sets. It shows the maps on a ball in the source's shading.
+// Then it shows the ball in the target's shading, with the same numbers and with converted numbers.
 #pragma once
 
 #include <functional>
@@ -32,13 +32,13 @@ struct SetFigure {
 
 struct SetPreview {
   std::vector<SetFigure> figures;
-  std::vector<std::string> notes;  // models that another model of the built-in renderer stands for
+  std::vector<std::string> notes;  // which models are shown by another built-in model
   Image sheet;                     // a row for each set; columns: source, numbers copied, numbers converted
   SheetLabels labels;
 };
 
-// Previews the first sets of a plan, whose maps are scaled down to the size of the picture. A model that the
-// built-in renderer lacks is shown by the model that a shipped converter matches best to it. Normal maps and
+// Previews the first sets of a plan. Their maps are scaled down to the size of the picture. If the built-in
+// renderer lacks a model, it shows the model that a shipped converter matches best to it. Normal maps and
 // opacity are not shown. Throws kInput if a map cannot be read, and kUsage if the plan has no texture set.
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options);
 

@@ -49,9 +49,11 @@ class Worker {
 
   // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the picture
   // has forbidden values (picture_fault.hpp). If the worker answered with an error, is_usable() stays true
-  // and the worker accepts further requests. Every message about a worker names the worker and the request.
-  // If the worker was ended, the message has the end of its log. A message has at most remap::kLongestMessage
-  // bytes and no control characters, whatever the worker writes.
+  // and the worker accepts further requests.
+  //
+  // Every message about a worker names the worker and the request. If the worker was ended, the message has
+  // the end of its log. A message has at most remap::kLongestMessage bytes and no control characters,
+  // whatever the worker writes.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 

@@ -135,7 +135,7 @@ MaterialSplit split_materials(const MaterialTable& table, const std::vector<Mate
   return split;
 }
 
-// Computes the errors of the converter, whose outputs are clamped to 0 to 1.
+// Computes the errors of the converter. Its outputs are clamped to the range from 0 to 1.
 void judge(const Network& network, const std::vector<MaterialRow>& rows, NetworkTraining* training) {
   std::vector<double> colors, metals;
   for (const MaterialRow& row : rows) {

@@ -1,5 +1,5 @@
-// This file evaluates a fully connected network on many samples: outputs, gradient and Jacobian by
-// backpropagation. The optimisers (network_optimisers.hpp) use it during training.
+// This file evaluates a fully connected network on many samples. It computes outputs, gradient and Jacobian
+// by backpropagation. The optimisers (network_optimisers.hpp) use it to train networks.
 #pragma once
 
 #include <cstddef>
