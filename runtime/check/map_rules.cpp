@@ -81,8 +81,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all in this
-// range, too. This ignores edges, because they are thinner.
+// Returns the fraction of texels between 0.15 and 0.85 whose neighbours, two texels away, are all in this
+// range, too. This excludes edges, because they are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -107,7 +107,7 @@ std::vector<const Plane*> planes_of(const CheckedMaterial& material, const Mater
   return planes;
 }
 
-// Returns the values of constant channels.
+// Returns the first value of each channel, for constant channels.
 std::vector<float> values_of(const std::vector<const Plane*>& planes) {
   std::vector<float> values;
   for (const Plane* plane : planes) values.push_back(plane->front());
@@ -131,7 +131,8 @@ bool is_first_tile(const CheckedMaterial& material, const MaterialUse& use) {
   return &*first == &use;
 }
 
-// Returns true if all tiles have the value of this tile in every texel. Otherwise no number can replace them.
+// Returns true if all tiles of the map have this tile's value in every texel. Only then can one number
+// replace them.
 bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   const std::vector<float> own = values_of(planes_of(material, use));
   return std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
@@ -141,7 +142,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   });
 }
 
-// Returns the fix that replaces a map of one value by a factor. Factors and options use linear numbers.
+// Returns the fix that replaces a map of one value by a factor. Factors and options are linear numbers.
 Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;
@@ -175,7 +176,8 @@ std::string swapped(const TexelSample& texels, std::size_t a, std::size_t b) {
   return text;
 }
 
-// Calls `judge(use)` for each use of this material whose image is readable, and once per map and channel.
+// Calls `judge(use)` for each use in this material whose image can be read. Several uses of one map and
+// channel are judged once.
 template <typename Judge>
 void for_uses(const CheckedMaterial& material, Judge judge) {
   std::set<std::pair<std::filesystem::path, Channels>> seen;
@@ -226,7 +228,8 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
 
 void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
-  // Ks of MTL is not a reflectance at normal incidence. In a set with metallic, a specular map is a level.
+  // Ks of MTL is not a reflectance at normal incidence. In a set with a metallic map, a specular map is a
+  // specular level.
   const bool has_metallic =
       std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
   if (material.kind == MaterialKind::kMtl || has_metallic) return;
@@ -267,8 +270,8 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;  // alpha cuts a label of one color out
-    // people use images up to this side instead of a number, so a constant image is intended
+      return;  // alpha cuts out a shape of one color
+    // People use images of up to this side instead of a number, so a constant image is intended.
     constexpr int kSmall = 4;
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
@@ -289,7 +292,8 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
   });
 }
 
-// Finds banding: an 8-bit step at roughness r widens alpha = r^2 by 2 / (255 r), so by 20 % at 10 / 255.
+// Finds banding. At roughness r, an 8-bit step changes alpha = r^2 by a fraction of 2 / (255 r). At r = 10 /
+// 255, this is 20 %.
 void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
              std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
@@ -417,7 +421,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     MaterialUse green = use;
     green.channels = Channels::kGreen;
     const Curl curl = curl_of(rgb, texels.columns, texels.rows);
-    // least ratio of the curls; noise and rounding add the same amount to both
+    // The curls must differ by this ratio. Noise and rounding add the same amount to both.
     constexpr double kClear = 2.0;
     const Orientation seen = curl.down > kClear * curl.up   ? Orientation::kOpenGl
                              : curl.up > kClear * curl.down ? Orientation::kDirectX

@@ -24,7 +24,8 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// These are all extensions except the last one. The lists below are for importers that ignore fewer.
+// This list has all extensions except the last. The lists below are for importers that ignore fewer
+// extensions.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,

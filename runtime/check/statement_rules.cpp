@@ -1,4 +1,4 @@
-// This file has the rules that check words and numbers in assets, not texels.
+// This file has the rules that check names and numbers in assets, not texels.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -43,8 +43,8 @@ std::optional<std::uint32_t> hex_at(std::string_view text, std::size_t at) {
 bool is_high_surrogate(std::uint32_t code) { return code >= 0xd800 && code <= 0xdbff; }
 bool is_low_surrogate(std::uint32_t code) { return code >= 0xdc00 && code <= 0xdfff; }
 
-// An EscapedCode holds the code point of the escape \uXXXX and the place after it. It is missing if half of a
-// surrogate pair occurs without the other half.
+// An EscapedCode holds the code point of an escape \uXXXX, and the place after it. The code is unset if half
+// of a surrogate pair occurs without the other half.
 struct EscapedCode {
   std::uint32_t code = 0;
   std::size_t end = 0;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kTagDigits = 8;
 
-// Returns a text that identifies the machine since its start, and its PID namespace. The machine's name is
-// not enough, because cloned machines have the same name.
+// Returns a text that identifies the machine since it was started, and its PID namespace. The name of the
+// machine does not suffice, because cloned machines have the same name.
 std::string place_of_processes() {
   std::error_code ignored;
   std::string start;

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// This many images stay decoded, because materials in sequence often use the same two.
+// So many images stay decoded, because materials in sequence often use the same two.
 constexpr std::size_t kRecentImages = 2;
 
 // In these extensions, a texture refers to an image of another format. The most common extension comes first.

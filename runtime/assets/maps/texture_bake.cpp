@@ -56,7 +56,7 @@ void change_colors(const ImagePixels& pixels, std::vector<float>& values, const 
     change(std::span<float>(values.data() + i, colors));
 }
 
-// A GridSampler returns a row of the grid from the map's linear values.
+// A GridSampler computes rows of the grid from the linear values of the map.
 class GridSampler {
  public:
   GridSampler(const ImagePixels& map, const std::vector<float>& values, const TextureTransform& transform,

@@ -34,24 +34,25 @@ double expected_error(const ConverterInfo& info);
 // A ConverterPath is a list of converters from the first one's source to the last one's target.
 struct ConverterPath {
   std::vector<const Converter*> steps;
-  // This is the sum over the steps. It is linear, because the differences of two steps are fixed pictures,
-  // which need not cancel.
+  // This is the sum over the steps. The errors are added, because the errors of two steps are fixed
+  // differences of pictures, which need not cancel.
   double expected_error = 0.0;
 };
 
-// A PathDifference is how much pictures of a path's results differ from the source's. People see it.
+// A PathDifference states how much pictures of a path's results differ from pictures of the source. People
+// see this difference.
 struct PathDifference {
   double converted = 0.0;        // RMSE of display values, percent
-  std::optional<double> copied;  // for copied numbers; known only for a single, measured step
-  bool is_estimate = false;      // for several steps, or if it comes from an image error
+  std::optional<double> copied;  // for copied numbers; set only for a single step that was measured
+  bool is_estimate = false;      // true for several steps, or if it comes from an image error
 };
 
 // This is the expected RMSE for an image error of 1: the median of the hub's 42 pairs, half of which lie
 // between 13 and 28. Image errors use one light from the side, pictures use environments.
 inline constexpr double kPercentOfImageError = 23.0;
 
-// Adds the steps' differences in quadrature, because they are usually unrelated. Returns 0 for a path without
-// steps, and nothing if a step has neither pictures nor an image error.
+// Adds the squares of the steps' differences, because these are usually unrelated, and takes the root.
+// Returns 0 for a path without steps. Returns nothing if a step has neither pictures nor an image error.
 std::optional<PathDifference> picture_difference(const ConverterPath& path);
 
 std::vector<std::string> path_models(const ConverterPath& path);
@@ -83,23 +84,23 @@ class ConverterGraph {
   // `converters` must outlive the graph and its paths. Several converters may join the same two models.
   explicit ConverterGraph(std::vector<const Converter*> converters, Detours detours = Detours::kAllowed);
 
-  // Return sorted names: of all models, of the models that `model` can reach, and of the models that reach
-  // it. The last two omit `model` itself.
+  // Return sorted names: of all models, of the models that can be reached from `model`, and of the models
+  // from which `model` can be reached. The last two lists do not have `model` itself.
   const std::vector<std::string>& models() const noexcept { return models_; }
   std::vector<std::string> reachable_from(const std::string& model) const;
   std::vector<std::string> reaching(const std::string& model) const;
   bool has_model(const std::string& name) const;
-  // Returns the two parameters of a model, as a converter from or to it has them. Returns an empty ModelSide
-  // if no converter has the model.
+  // Returns the two parameters of a model, as the converters of the model have them. Returns an empty
+  // ModelSide if there are none.
   ModelSide side_of(const std::string& model) const;
   // Returns the converters in the order of their ids.
   const std::vector<const Converter*>& converters() const noexcept { return converters_; }
   // Returns the sorted names of the models of a renderer.
   std::vector<std::string> models_of(const std::string& renderer) const;
 
-  // Returns the best path to each model of the renderer `request.target`, by the name of the model. It skips
-  // the source and the models in `via`. Returns nothing if no path leads to a model of the renderer. Throws
-  // kUsage if another name is unknown or a path would visit `via` twice.
+  // Returns the best path to each model of the renderer `request.target`, sorted by the name of the model.
+  // Skips the source and the models in `via`. Returns nothing if no path leads to a model of the renderer.
+  // Throws kUsage if another name is unknown, or if a path would visit `via` twice.
   std::vector<ConverterPath> paths_to_renderer(const PathRequest& request) const;
 
   // Returns up to `count` (1 or more) paths that visit no model twice, and at least one. They are sorted by
@@ -123,7 +124,7 @@ class ConverterGraph {
 
 // Returns the graph of all shipped converters, without detours.
 ConverterGraph shipped_graph(InstructionSet set = best_instruction_set());
-// Returns the graph of the converters of a list, which must outlive it. It has no detours either.
+// Returns the graph of the converters of a list, which must outlive it. It has no detours.
 ConverterGraph graph_of(const ConverterList& converters);
 
 // The following function joins several converters into one, so that maps are read and written once.
@@ -169,16 +170,17 @@ inline constexpr double kLeastCoverage = 0.15;
 // a path without steps.
 bool is_copy(const ConverterPath& path);
 
-// Returns true if the pictures of every step were compared.
+// Returns true if pictures of every step were compared.
 bool is_measured(const ConverterPath& path);
 
-// Returns the path of least expected error among `paths`, which start at one source and must not be empty.
-// Errors that agree when rounded up to three digits are equal, and the first of equal paths wins. Skips paths
-// that cover less than kLeastCoverage of what the widest path covers.
+// Returns the path with the smallest expected error. `paths` start at one source and must not be empty.
+// Errors are rounded up to three digits before they are compared, and the first of equal paths wins. Skips
+// paths that cover less than kLeastCoverage of what the widest path covers.
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths);
 
-// Returns the closest of the `others` that lead to another model of the renderer of `path`, if it is closer.
-// Returns nothing if none is, or if one of the two paths is not measured. All start at one source.
+// Returns the closest of `others` that leads to another model of the same renderer, if it is closer than
+// `path`. Returns nothing if there is none, or if one of the two paths is not measured. All paths start at
+// one source.
 std::optional<ConverterPath> closer_path(const ConverterPath& path, const std::vector<ConverterPath>& others);
 
 }  // namespace remap
