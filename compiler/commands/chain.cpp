@@ -104,7 +104,7 @@ void add_chain_command(Command& app) {
       ->required();
   add_new_fit_options(*command, options);
   command->footer(
-      "The domain of the new fit is where every step is inside its own. Its errors are the errors of the "
+      "In the domain of the new fit, every step stays in its own domain. Its errors are the errors of the "
       "steps, "
       "propagated to the end.\n\n"
       "Example:\n"

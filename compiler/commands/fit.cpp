@@ -219,8 +219,8 @@ void add_regression_options(Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
   app.add_option("--model NAME", command.options.kind, one_of(kModels, "kind of fit"),
-                 "auto: the fewest terms that pictures cannot tell from more; parametric: polynomial and "
-                 "exponentials of the paper; svr: support vectors; mlp: a small network")
+                 "auto: as few terms as pictures need; parametric: polynomial and exponentials of the paper; "
+                 "svr: support vectors; mlp: a small network")
       ->default_text("auto");
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
@@ -240,8 +240,8 @@ void add_regression_options(Command& app, FitCommand& command) {
                  "Fraction of the rows held out to measure errors");
   app.add_option(
          "--lower TOLERANCE", command.tolerance,
-         "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
-         "target alpha, relative to the largest one for target specular")
+         "Largest allowed deviation of the converter from the fit: absolute for target alpha, relative to "
+         "the largest value for target specular")
       ->positive();
   app.add_option("--seed", regression.seed, "Seed of the split and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());

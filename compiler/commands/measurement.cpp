@@ -47,9 +47,9 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
     return changed;
   };
   app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, Reader<ParameterRoles>{roughness, {}},
-                 "Parameter of the " + side + " that is its roughness (default: as the model declares it)");
-  app.add_option(prefix + "-specular NAME", roles.specular, "Parameter that is its specular");
-  app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter that is its diffuse");
+                 "Parameter of the " + side + " to use as roughness (default: the model's roughness)");
+  app.add_option(prefix + "-specular NAME", roles.specular, "Parameter to use as specular");
+  app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter to use as diffuse");
   const auto value = [](const ParameterSetting& setting) {
     if (setting.values.size() != 1)
       setting.fail(std::to_string(setting.values.size()) +

@@ -101,10 +101,10 @@ struct PrintMapping {
       std::cout << "  above specular2 " << decimal_text(*form.specular_limit)
                 << ", alpha2 changes by alpha1 (" << decimal_text(form.hinge.turn) << " + "
                 << decimal_text(form.hinge.turn_by_alpha) << " alpha1) x / (1 + "
-                << decimal_text(form.hinge.bend) << " x), x the share that is cut off\n";
+                << decimal_text(form.hinge.bend) << " x), where x is the fraction that is cut off\n";
     if (form.alpha_limit)
       std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
-                << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
+                << decimal_text(form.hinge.spread) << " times the fraction that is cut off\n";
   }
 
  private:
@@ -159,7 +159,7 @@ std::array<double, 4> limit_shares(const Fit& fit) {
 void print_limits(const Fit& fit) {
   const std::array<double, 4> shares = limit_shares(fit);
   if (shares[0] > 1.0 - 1e-9) return;
-  std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
+  std::cout << "At the limits of " << fit.target.model << ", in fractions of the domain\n  neither "
             << percent_text(shares[0]) << "\n  alpha " << number_text(fit.limits.alpha) << ": "
             << percent_text(shares[1]);
   if (fit.limits.specular)
@@ -225,7 +225,7 @@ void print_trust(const Fit& fit) {
     std::cout << "Difference of the models: unknown (not validated by rendering)\n";
   }
   if (fit.pictures)
-    std::cout << "Pictures, by materials and lights that chose nothing\n  RMSE of display values "
+    std::cout << "Pictures, with materials and lights that the fit did not use\n  RMSE of display values "
               << fixed(fit.pictures->converted.rmse, 2) << " % (numbers copied "
               << fixed(fit.pictures->copied.rmse, 2) << " %), under one light "
               << fixed(100.0 * fit.pictures->converted.relative, 0) << " % of the picture (copied "

@@ -85,7 +85,7 @@ void add_options(Command& app, SweepCommand& command) {
   command.add_picture_options(app);
   app.option_group(kRareOptions);
   app.add_option("--columns MAP", command.samples_of.columns, columns_reader(),
-                 "Names of columns in the table of --samples-of, OWN=FILE,...");
+                 "Names of the columns in the table of --samples-of, as OWN=FILE,...");
   app.add_option("--stages", command.sweep.stages,
                  "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from "
                  "the result of 2")

@@ -85,9 +85,10 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const WarpMap
                           std::to_string(found.target_dimensions) + ")"},
        {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
        {"directions fixed by strokes", std::to_string(found.fixed_directions)},
-       {"appearances of the template used", percent(found.coverage)},
+       {"used part of the template's appearances", percent(found.coverage)},
        {"folds", percent(found.fold_share)},
-       {"distance of strokes after the warp, of the template's spread", percent(found.stroke_distance)},
+       {"distance of strokes after the warp, relative to the template's spread",
+        percent(found.stroke_distance)},
        {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}},
       file.remarks,
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
@@ -232,9 +233,9 @@ void run(const WarpCommand& command) {
 
 void add_stroke_options(Command& app, WarpCommand& command) {
   app.option_group("Strokes");
-  app.add_option(
-         "--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
-         "Two images with a color for each region, on a transparent background or on the most frequent color")
+  app.add_option("--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
+                 "Two images with one color for each region; the background is transparent or the most "
+                 "frequent color")
       ->type_size(2);
   app.add_option("--stroke SOURCE_MASK TEMPLATE_MASK", command.masks,
                  "Two masks that mark one region; may be repeated")
@@ -266,7 +267,7 @@ void add_warp_command(Command& app) {
   WarpCommand& options = set_work<WarpCommand>(*command, run);
   command
       ->add_option("source", options.source,
-                   "Folder of the set that keeps its pattern; may hold a diffuse map only")
+                   "Folder of the set that keeps its pattern; it may have only a diffuse map")
       ->required();
   command->add_option("template", options.target, "Folder of the set whose reflectance is used")->required();
   add_stroke_options(*command, options);

@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// Returns `struct Form` of a converter, which runtime/stages/code/form_rows.inc uses.
+// Returns the code of `struct Form` for a converter. runtime/stages/code/form_rows.inc uses this struct.
 std::string form_code(const ConverterData& converter);
 
 struct MaterialCode {

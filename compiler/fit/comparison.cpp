@@ -159,7 +159,8 @@ void choose(Comparison* comparison) {
     alpha = std::min(alpha, record.relative_alpha);
     specular = std::min(specular, record.relative_specular);
   }
-  // Returns how far a candidate is from the best, in units of what pictures show. It is close enough up to 1.
+  // Returns how far a candidate is from the best, in units of what pictures show. A candidate is close enough
+  // if the result is at most 1.
   const auto distance = [&](const CandidateRecord& record) {
     if (record.pictures)
       return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),

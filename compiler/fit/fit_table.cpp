@@ -37,7 +37,7 @@ void require_models(const Table& table) {
 // to the input.
 constexpr double kLeastShare = 0.02;
 
-// Parses the pairs of numbers of kSpheresComment and skips invalid ones.
+// Parses the pairs of numbers in kSpheresComment, and skips invalid pairs.
 std::vector<SphereSimilarity> spheres_of(const Table& table) {
   std::vector<SphereSimilarity> spheres;
   for (const auto& [key, value] : table.comments) {

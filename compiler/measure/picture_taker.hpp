@@ -15,7 +15,7 @@
 
 namespace remap {
 
-// A RoleValues holds values for the roles of a model's parameters: a grey material.
+// A RoleValues is a grey material. It has a value for each role of a model's parameters.
 struct RoleValues {
   double alpha = 0.0;
   double specular = 0.0;
@@ -97,8 +97,8 @@ struct AffinePictures {
 };
 AffinePictures take_affine(const PictureTaker& picture_taker, const ProbedModel& probed_model, double alpha);
 
-// Returns the pictures of the model's family at one width; the model must have one. For an affine family
-// these are base and slope, or only slope.
+// Returns the pictures of the model's family at one width. The model must have a family. For an affine
+// family, these are base and slope, or only slope.
 std::vector<std::vector<float>> take_family(const PictureTaker& picture_taker,
                                             const ProbedModel& probed_model, double alpha);
 

@@ -24,8 +24,9 @@ struct Equation2 {
   bool operator==(const Equation2&) const = default;
 };
 
-// The following formulas convert from specular to metallic, which cannot express all specular materials.  A
-// Projection finds the base color and metallic whose pictures differ least, in closed form.
+// The following formulas convert from specular to metallic, which cannot express all specular materials.
+//
+// A Projection finds the base color and metallic whose pictures differ least, in closed form.
 struct Projection {
   double prior = 0.0;  // at least 0 (kCleanPrior)
   bool operator==(const Projection&) const = default;

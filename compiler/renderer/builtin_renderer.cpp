@@ -44,7 +44,8 @@ struct BuiltinModel {
   Range alpha = kAlphaRange;
 };
 
-// Names are the hub's. `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
+// Names are those of Mitsuba's models. `-plain` multiplies the microfacet lobe by a constant instead of
+// Schlick's Fresnel.
 constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},

@@ -69,10 +69,10 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
       layout.columns.push_back(column);
     }
     if (radii.size() < 2 || radii != layout.radii)
-      throw input_error(context +
-                        ": requires columns named R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, with the "
-                        "same two or more radii for each; the first column is " +
-                        (names.empty() ? "missing" : "'" + names.front() + "'"));
+      throw input_error(
+          context + ": has no profiles, because the first column is " +
+          (names.empty() ? "missing" : "'" + names.front() + "'") +
+          " (name the columns R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, for two or more radii)");
   }
   return layout;
 }

@@ -220,8 +220,8 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
     const std::size_t count = texels.layout.channels.size();
     findings.push_back(
         {rule.name, Confidence::kCertain, map.shown, "A",
-         "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, which " +
-             std::string(role_name(use.role)) + " is read from: it is 1 everywhere",
+         "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, so " +
+             std::string(role_name(use.role)) + " is read as 1 everywhere",
          "export it again with four channels, " + std::string(role_name(use.role)) + " in alpha"});
   });
 }
@@ -318,8 +318,8 @@ void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& r
     if (share < kShare || levels.size() < kLevels) return;
     findings.push_back(
         {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
-         percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
-             std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
+         percent(share) + " of its texels have only " + std::to_string(levels.size()) + " values up to " +
+             std::to_string(last) + " / 255; each step widens highlights by 20 % or more",
          "export it again with 16 bits or as half float; no conversion can restore the missing bits"});
   });
 }
@@ -386,7 +386,7 @@ void channel_order(const CheckedMaterial& material, const GltfConsumer*, const R
       findings.push_back({rule.name, Confidence::kLikely, map.shown, channel_text(use),
                           "metallic is read from " + channel_text(use) +
                               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
-                              " is black and white like metallic",
+                              " is black and white, as metallic usually is",
                           image_fix(material, map, "swap the channels",
                                     "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
       return;
@@ -406,7 +406,7 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
                         percent(shares.inwards) +
                             " of its normals point into the surface: they are of world or object space, "
                             "not of tangent space",
-                        "bake the map again in tangent space; changing its texels does not do that"});
+                        "bake the map again in tangent space; texremap cannot convert it"});
   });
 }
 
@@ -432,7 +432,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     };
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
-         "its slopes belong to a surface only as " + text(seen) + ", but " +
+         "its slopes fit together only if it is " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or importer states ") +
              text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});

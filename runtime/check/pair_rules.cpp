@@ -172,10 +172,10 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
               {rule.name, Confidence::kCertain, place_of(material, wrong), "",
                "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
                    (squared == 2.0 ? "square" : "fourth power") + " of " + place_of(material, other) + " (" +
-                   std::string(role_name(other.role)) + "): " +
-                   (squared == 2.0 ? "it holds alpha, or the other map is its root" : "it was squared twice"),
+                   std::string(role_name(other.role)) +
+                   "): " + (squared == 2.0 ? "one of them holds alpha" : "it was squared twice"),
                image_fix(material, material.maps[wrong.map],
-                         "keep the other map, or take the root of this one (alpha)",
+                         "keep the other map, or take the root of this map (which is then roughness)",
                          root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }

@@ -67,7 +67,7 @@ struct FormEnds {
   float alpha_min = 0.0f;                    // alpha of the sharpest source texel in the domain
   float least_alpha = 0.0f;                  // smallest alpha of the target, because exponents are finite
 };
-// Returns the ends for the domain `width`.
+// Returns the range in which a form is evaluated for the domain `width`.
 FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width);
 
 }  // namespace remap

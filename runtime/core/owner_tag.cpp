@@ -27,7 +27,7 @@ std::string place_of_processes() {
          std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
 }
 
-// Returns the hash FNV-1a, 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
+// Returns the hash FNV-1a with 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
 std::string tag_of(const std::string& text) {
   std::uint32_t hash = 0x811c9dc5u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;

@@ -44,6 +44,27 @@ void require_known(const std::string& word, const std::string& name, const Conve
                     (near.empty() ? "" : "closest: " + near + "; ") + "all: " + all_names + ")");
 }
 
+// Refuses models of `via` that no path can pass between `source` and `target`, which are BRDF models.
+void require_via(const ConversionRequest& request, const ConverterGraph& graph, const std::string& source,
+                 const std::string& target) {
+  const std::vector<std::string>& via = request.via;
+  for (auto model = via.begin(); model != via.end(); ++model) {
+    const std::string& word = request.words.via;
+    const std::string place = word + " " + *model + ": ";
+    if (const std::vector<std::string> own = graph.models_of(*model);
+        !graph.has_model(*model) && !own.empty())
+      throw usage_error(place + "is a renderer, not a model (choose one of its models: " + joined(own, ", ") +
+                        ")");
+    if (!graph.has_model(*model))
+      throw usage_error(word + ": unknown model '" + *model + "'" + suggestion(*model, graph.models()));
+    if (*model == source || *model == target)
+      throw usage_error(place + "the path " + (*model == source ? "begins" : "ends") +
+                        " with this model already (remove this option)");
+    if (std::find(via.begin(), model, *model) != model)
+      throw usage_error(place + "given twice (remove one of the two)");
+  }
+}
+
 NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, const std::string& word,
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
@@ -66,8 +87,8 @@ std::string target_named(const ConversionRequest& request, const NamedEnd& from)
   if (graph.has_model(to) || graph.models_of(to).empty()) return to;
   if (renderer_of(source) == to) {
     if (from.has_workflow() || request.target_workflow) return source;
-    throw usage_error(request.words.target + ": " + source + " is a model of " + to +
-                      " already (choose another model)");
+    throw usage_error(request.words.target + " " + to + ": the source " + source +
+                      " is already a model of this renderer (choose one of its other models)");
   }
   const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, request.via});
   if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses this model
@@ -202,8 +223,11 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
     if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
   }
   const NamedEnd from = named_end(request.source.name, request.source_workflow, words.source_workflow, graph);
+  if (!from.name.empty()) require_via(request, graph, from.workflow().brdf, "");
   const std::string target = target_named(request, from);
   const NamedEnd to = named_end(target, request.target_workflow, words.target_workflow, graph);
+  if (!from.name.empty() && !target.empty())
+    require_via(request, graph, from.workflow().brdf, to.workflow().brdf);
   ConversionChoice choice;
   choice.source_brdf = from.name;
   choice.target_brdf = target;

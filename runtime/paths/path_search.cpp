@@ -112,7 +112,8 @@ class Search {
     }
   }
 
-  // Returns the sum of the least costs from the beginning's end through the remaining waypoints in order.
+  // Returns the least cost from the last node of the beginning through the remaining waypoints, in their
+  // order.
   std::optional<Cost> least_rest(const Beginning& beginning) const {
     Beginning from = beginning;
     Cost sum = 0;

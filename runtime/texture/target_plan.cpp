@@ -341,7 +341,7 @@ void require_held(const TargetChoice& choice) {
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
       throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
-                                         " (a channel would be empty)");
+                                         ", which would have an empty channel (remove one of the two)");
 }
 
 PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {

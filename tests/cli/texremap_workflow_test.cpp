@@ -192,7 +192,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
   warned(words, "specular, read as linear, is white everywhere");
   write_specular(session, 8.0f);
-  warned(words, "texels reflect more than 1; clamped to 1");
+  warned(words, "texels reflect more than all light; clamped to 1");
   write_specular(session);
   warned(words,
          "the diffuse convention of specular and metallic is assumed to be plain (if not, use "

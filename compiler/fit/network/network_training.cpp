@@ -205,7 +205,7 @@ class StartsProgress {
   std::atomic<bool> stopped_ = false;  // read without the lock
 };
 
-// A Training is one training. The seed determines the initial weights.
+// A Training trains a network once. The seed determines the initial weights.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
 struct BestStart {
@@ -243,7 +243,7 @@ std::string shape_text(const NetworkShape& shape) {
   return text + " " + std::string(activation_name(shape.activation));
 }
 
-// A TrainingOutcome is the result of a training, by either set of optimisers.
+// A TrainingOutcome is the result of training, by Levenberg-Marquardt or by Adam with L-BFGS.
 struct TrainingOutcome {
   BestStart best;
   NetworkSamples samples;

@@ -149,7 +149,7 @@ class StatementReader {
 
   double number(const MtlStatement& statement, double least, double most, const char* expected) const {
     const std::vector<TextSpan> words = document_.words(statement);
-    // `d -halo 0.5` depends on the angle, which is ignored.
+    // With `d -halo 0.5`, opacity depends on the angle. Only the number is used.
     const bool has_option = words.size() > 1 && in_lower_case(document_.raw(words.front())) == "-halo";
     const std::size_t index = has_option ? 1 : 0;
     const std::optional<double> value = index < words.size() ? finite(words[index]) : std::nullopt;

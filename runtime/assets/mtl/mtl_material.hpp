@@ -99,7 +99,7 @@ struct MetalRoughNumbers {
 // becomes rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
-// An MtlReflection is the surface as factors, which its maps multiply.
+// An MtlReflection holds the factors of a surface. Maps are multiplied by them.
 struct MtlReflection {
   LegacyMaterial factors;
   bool has_highlight = false;

@@ -35,7 +35,7 @@ struct ObjShape {
   std::vector<ObjPrimitive> primitives;
 };
 
-// An ObjMaterialName is a material's name. Faces before the first `usemtl` have none.
+// An ObjMaterialName is the name of a material. Faces before the first `usemtl` have no material.
 struct ObjMaterialName {
   std::string name;
   bool is_given = false;

@@ -27,7 +27,7 @@ ModelName model_named(const std::string& word);
 
 // These words name the parts of a request in messages.
 struct ConversionWords {
-  std::string source = "source", target = "target";
+  std::string source = "source", target = "target", via = "via";
   std::string source_workflow = "source_workflow", target_workflow = "target_workflow";
   std::string dielectric_f0 = "dielectric_f0", diffuse_convention = "diffuse_convention";
   std::string all_names = "models()";  // how to list every name

@@ -131,9 +131,9 @@ struct MapTreatment {
 struct MapConversion : MapTreatment {
   std::size_t width = 0;
   std::size_t height = 0;
-  // Holds every source of the converter, and optional ones. Colors have 1 or 3 channels or constants. Other
-  // parameters have one channel, or several equal channels, of which the first is used. kInput reports the
-  // first texel where they differ by more than the tolerance.
+  // Holds all required sources of the converter, and some of its optional sources. Colors have 1 or 3
+  // channels or constants. Other parameters have one channel, or several equal channels, of which the first
+  // is used. If the channels differ by more than the tolerance, kInput reports the first such texel.
   std::map<Parameter, SourceParameter> sources;
   // These targets are stored. They may share the memory of the sources. A color has as many channels as the
   // converter makes; a grey one may also have three. Other parameters are stored in all of their channels.

@@ -47,8 +47,9 @@ struct PathDifference {
   bool is_estimate = false;      // true for several steps, or if it comes from an image error
 };
 
-// This is the expected RMSE for an image error of 1: the median of the hub's 42 pairs, half of which lie
-// between 13 and 28. Image errors use one light from the side, pictures use environments.
+// This is the expected RMSE for an image error of 1. It is the median of the 42 pairs of Mitsuba's models,
+// and half of the pairs lie between 13 and 28. Image errors use one light from the side, but pictures use
+// environments.
 inline constexpr double kPercentOfImageError = 23.0;
 
 // Adds the squares of the steps' differences, because these are usually unrelated, and takes the root.
@@ -139,11 +140,12 @@ ConverterGraph graph_of(const ConverterList& converters);
 // Throws kInput if a step does not take the model and parameters that the step before it makes.
 std::unique_ptr<Converter> make_chained_converter(const std::vector<const Converter*>& steps);
 
-// A SourceDomain is a part of the first step's domain whose images lie in the domains of all later steps.
-// First it takes the widest range of width whose images do so at every covered specular. Then it takes the
-// widest range of specular, from its lower end, whose images do so at all those widths. The search is a
-// bisection, because the mappings are monotone; ends are rounded inwards to 4 digits. It is the first step's
-// own domain if a sample of the part has its image outside, or if there is no such part around the middle.
+// A SourceDomain is a part of the first step's domain. The steps map it into the domains of all later steps.
+// It has the widest range of width for which this holds at every covered specular. Then it has the widest
+// range of specular, from its lower end, for which this holds at all these widths. The ranges are found by
+// bisection, because the mappings are monotone, and their ends are rounded inwards to 4 digits. If a sample
+// of this part leaves a later domain, or if no such part exists around the middle, it is the whole domain of
+// the first step.
 struct SourceDomain {
   Range roughness;  // the source's own width parameter
   Range specular;

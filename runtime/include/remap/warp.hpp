@@ -72,8 +72,8 @@ std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates&
 // A BlendedNodes interpolates multilinearly between nodes. Positions are clamped to the box of the table.
 struct BlendedNodes {
   std::array<float, kWarpParameters> least{}, largest{};  // range of each parameter
-  // The codes are nodes^dimension x 7, the first dimension fastest. A parameter is least + (largest - least)
-  // (code / 255)^2, with finer steps for dark values.
+  // There are nodes^dimension x 7 codes, and the first dimension is the fastest. A parameter is least +
+  // (largest - least) (code / 255)^2, so that dark values have finer steps.
   std::vector<std::uint8_t> codes;
 
   bool operator==(const BlendedNodes&) const = default;

@@ -124,7 +124,7 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end);
 // A WorkflowStages describes the stages of a conversion from one workflow to another.
 struct WorkflowStages {
   WorkflowEnd source, target;
-  // This converts between the BRDFs of both ends. It is null if they are the same.
+  // This converts between the BRDFs of both ends. It is null if both ends have the same BRDF.
   const Converter* brdf = nullptr;
   RoughnessEncoding width = RoughnessEncoding::kRoughness;  // width of both ends if `brdf` is null
   double prior = kCleanPrior;                               // for the projection to metallic

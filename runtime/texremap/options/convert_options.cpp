@@ -393,7 +393,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
                       ->tag(kForAssets);
   command
       .add_flag("--verbose", options.verbose,
-                "Print every warning, and measures of each set that pictures do not show")
+                "Print every warning, the converter, and measures of each set that pictures do not show")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }

@@ -10,7 +10,8 @@
 
 namespace remap {
 
-// A UsedConverters holds the shipped converters, or the ones from --converters (a file or folder), read once.
+// A UsedConverters holds the shipped converters, or those of --converters (a file or folder), which it reads
+// once.
 class UsedConverters {
  public:
   // Adds the option, which every command has. The object must live until the command has run.

@@ -51,7 +51,7 @@ std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
     return !is_map && options.folder.empty();
   });
   return color_spaces("--color-space", options.color_spaces, colors,
-                      "is read from a map (for results: --output-color-space)");
+                      "is read from a map (for results, use --output-color-space)");
 }
 
 // Throws for the first source parameter without an option.
@@ -72,10 +72,10 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
 // Refuses maps and numbers that the conversion does not read.
 void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const auto refuse_map = [](const std::string& option, bool is_result) {
-    throw Error(ErrorKind::kUsage,
-                option + ": has no effect, because the source material has no " +
-                    option.substr(2, option.find("-factor") - 2) +
-                    (is_result ? " (it is a result of this conversion)" : " (remove this option)"));
+    throw Error(ErrorKind::kUsage, option + ": has no effect, because the source material has no " +
+                                       option.substr(2, option.find("-factor") - 2) +
+                                       (is_result ? " (this conversion writes it; remove this option)"
+                                                  : " (remove this option)"));
   };
   const std::vector<Parameter> targets = workflow.targets();
   for (const Parameter parameter :

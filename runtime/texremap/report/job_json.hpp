@@ -11,7 +11,7 @@
 
 namespace remap {
 
-// An Outcome is the outcome of the whole run.
+// An Outcome holds the reports, the time and the use of resources of a whole run.
 struct Outcome {
   const ConvertPlan& plan;
   std::vector<JobReport> reports;

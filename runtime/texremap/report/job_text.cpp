@@ -148,9 +148,9 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
     if (is_told(count)) line(count, what, noun);
   };
   if (plan.verbose)
-    line(counts.masked_count, " with an opacity of 0, which are converted and do not count here");
+    line(counts.masked_count, " with opacity 0 are converted, but not counted in these lines");
   visible_line(counts.above_one_count,
-               " reflect more than 1; clamped to 1 (put emission into a map for itself)");
+               " reflect more than all light; clamped to 1 (put emission into a separate map)");
   visible_line(counts.out_of_domain_count, " outside " + outside_text(chosen) +
                                                ": roughness clamped, specular extrapolated in proportion");
   line(counts.nan_count, " with NaN" + first_text(counts));
@@ -187,8 +187,7 @@ std::string outcome_text(const JobReport& report, bool dry_run) {
                          ? "nothing to convert, " + verb + "copied"
                          : counted(converted, "material") + " " + verb + "converted";
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
-  if (untouched > 0)
-    text += ", " + std::to_string(untouched) + " left as " + (untouched == 1 ? "it is" : "they are");
+  if (untouched > 0) text += ", " + std::to_string(untouched) + " unchanged";
   if (report.results.empty()) return text + "; nothing " + verb + "written";
   if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
   text += ": " + display_path(report.results.front().path);
@@ -252,7 +251,7 @@ void print_colors(const ColorNotes& colors, bool has_several) {
       if (note.reason == TransferReason::kUser)
         phrase += is_written ? " (--output-color-space)" : " (--color-space)";
       if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
-        phrase += is_written ? " (as the map that it follows)" : " (tagged so by the file)";
+        phrase += is_written ? " (as in the source map)" : " (as the file's tag states)";
       const auto known = std::find_if(phrases.begin(), phrases.end(),
                                       [&](const auto& entry) { return entry.first == phrase; });
       if (known == phrases.end())

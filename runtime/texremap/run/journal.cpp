@@ -39,7 +39,7 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// A Content is the content of journals. Each read continues at the end of the last one.
+// A Content is the content of journals. Each read continues where the last read ended.
 struct Content {
   std::optional<ConversionNote> owner;
   std::map<std::string, Entry> files;  // keyed by name; the last line about a file is valid
@@ -180,10 +180,10 @@ std::string shown_note(const std::string& text) {
   return text.empty() ? "none" : plain(text, kShown);
 }
 
-// Returns the first difference: `target mitsuba/ggx before, mitsuba/as now`.
+// Returns the first difference: `target before: mitsuba/ggx, now: mitsuba/as`.
 std::string difference(const ConversionNote& owner, const ConversionNote& own) {
   const auto differ = [](const std::string& what, const std::string& before, const std::string& now) {
-    return what + " " + shown_note(before) + " before, " + shown_note(now) + " now";
+    return what + " before: " + shown_note(before) + ", now: " + shown_note(now);
   };
   if (owner.source != own.source) return differ("source", owner.source, own.source);
   if (owner.target != own.target) return differ("target", owner.target, own.target);
@@ -236,8 +236,8 @@ struct Journal::State {
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
     throw Error(ErrorKind::kOutput,
-                folder.string() + ": belongs to another conversion, " + shown_note(content.owner->source) +
-                    " to " + shown_note(content.owner->target) + " (" +
+                folder.string() + ": holds results of another conversion, from " +
+                    shown_note(content.owner->source) + " to " + shown_note(content.owner->target) + " (" +
                     difference(*content.owner, conversion) + "; choose another folder, or use --force)");
   }
   void append(const Json& json);

@@ -240,7 +240,8 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// A FinishedCopies holds finished copies without a final name. It removes the ones that never get a name.
+// A FinishedCopies holds finished copies without a final name. Its destructor removes copies that never get
+// one.
 class FinishedCopies {
  public:
   FinishedCopies() = default;
@@ -299,7 +300,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     apply(*work.effect, choice);
     if (work.effect->written.empty())
       throw usage_error(report.inputs.front().string() + ": no input of " + chosen_.info().target.model +
-                        " depends on the maps (nothing to write; numbers alone are printed)");
+                        " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
   const RoughnessEncoding width =
