@@ -179,6 +179,11 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
                                                      pass_options(options),
                                                      options.output_roughness_factor.has_value()});
   const ChosenConverter& chosen = sets.chosen;
+  const auto name = [](const ModelName& typed, const ModelSide& side) {
+    return typed.alias != nullptr ? std::string(typed.word()) : side.model;
+  };
+  sets.source_name = name(options.from, chosen.info().source);
+  sets.target_name = name(options.to, chosen.info().target);
   require_fractions(sets.request, chosen.info());
   for (const std::string& text : chosen.workflow.assumptions) plan.messages.push_back("warning: " + text);
   for (const std::string& text : chosen.workflow.notes) plan.messages.push_back("note: " + text);

@@ -28,6 +28,7 @@ struct SetPlan {
   TargetChoice targets;           // members that differ between sets are not set yet
   PassOptions pass;               // target_convention comes from --output-encoding
   bool scales_exponents = false;  // true if the exponent that a stored 1 means is known for the results
+  std::string source_name = {}, target_name = {};  // aliases that the user typed, otherwise the models
 };
 
 struct ConvertPlan {

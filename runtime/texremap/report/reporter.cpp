@@ -62,8 +62,7 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
         fixed(outcome.used.processor_seconds, 2) + " s of processor time");
   std::string text =
       counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted");
-  if (sets != nullptr)
-    text += " from " + sets->chosen.info().source.model + " to " + sets->chosen.info().target.model;
+  if (sets != nullptr) text += " from " + sets->source_name + " to " + sets->target_name;
   if (!plan.dry_run) text += " in " + fixed(outcome.seconds, 2) + " s";
   text += ", " + std::to_string(outcome.failed_count()) + " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
