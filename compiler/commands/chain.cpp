@@ -81,7 +81,7 @@ void run_invert(const ChainCommand& command) {
     return;
   }
   std::cerr << path.string() << ": inverse of " << fit.id << "; "
-            << errors_text(inverse, "of the exact inverse held out") << "\n";
+            << errors_text(inverse, "held out from the exact inverse") << "\n";
 }
 
 void add_new_fit_options(Command& app, ChainCommand& command) {

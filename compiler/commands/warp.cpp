@@ -173,8 +173,8 @@ void warp_textures(const WarpCommand& command) {
                      " of the template's spread\n";
   if (source.is_albedo)
     more +=
-        "  the source has a diffuse map only: specular 0 and alpha 1 assumed, materials distinguished by "
-        "color\n";
+        "  the source has only a diffuse map, so remapc uses specular 0 and alpha 1, and its colors show the "
+        "materials\n";
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 

@@ -234,7 +234,7 @@ class GltfMaterials {
         if (image < images_.size()) images.push_back(map_of_image(image));
     if (images.empty()) {
       found_.problems.push_back(material.name + ": texture " + std::to_string(texture) +
-                                " has no image that is known here");
+                                " has no image in a known format");
       return std::nullopt;
     }
     MaterialMap map = std::move(images.front());

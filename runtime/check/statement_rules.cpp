@@ -43,7 +43,7 @@ Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::ve
     return std::ranges::all_of(uses, [&](const MaterialUse& use) { return same(use, uses.front()); });
   };
   if (!all_agree([](const auto& a, const auto& b) { return a.tex_coord == b.tex_coord; }))
-    return words + ", when its textures lie on one set of texture coordinates";
+    return words + " (first bring its textures to one set of texture coordinates)";
   if (!all_agree([](const auto& a, const auto& b) { return a.transform == b.transform; }))
     options.emplace_back("--bake");
   if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))

@@ -170,10 +170,10 @@ void choose_diffuse(const ConversionRequest& request, const WorkflowModel& sourc
     models += (models.empty() ? "" : " and ") + model_of(*end);
   }
   const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
-  choice.assumptions.push_back(
-      "the diffuse convention of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
-      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (if not, use " +
-      request.words.diffuse_convention + " " + (is_plain ? "scaled" : "plain") + ")");
+  choice.assumptions.push_back(std::string("assuming ") + (is_plain ? "plain" : "scaled") + " diffuse for " +
+                               models + (open.size() == 1 ? ", as in " + model_of(known) : "") +
+                               " (otherwise, use " + request.words.diffuse_convention + " " +
+                               (is_plain ? "scaled" : "plain") + ")");
 }
 
 void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
@@ -187,8 +187,8 @@ void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
 
 void note_alias(const ModelName& given, ConversionChoice& choice) {
   if (given.alias != nullptr)
-    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + ": " +
-                           std::string(given.alias->meaning));
+    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + " (" +
+                           std::string(given.alias->meaning) + ")");
 }
 
 }  // namespace

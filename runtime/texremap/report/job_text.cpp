@@ -36,8 +36,8 @@ std::string material_text(const ChosenConverter& chosen) {
 // Returns the domain that some texels are outside of.
 std::string outside_text(const ChosenConverter& chosen) {
   const std::string domain = domain_text(chosen.domain());
-  return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
-                                       : "the domain of a step (path: " + domain + ")";
+  return chosen.path.steps.size() <= 1 ? "the measured range (" + domain + ")"
+                                       : "the measured range of a step (path: " + domain + ")";
 }
 
 std::string first_text(const MapStatistics& counts) {
@@ -151,8 +151,8 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
     line(counts.masked_count, " with opacity 0 are converted, but not counted in these lines");
   visible_line(counts.above_one_count,
                " reflect more than all light; clamped to 1 (put emission into a separate map)");
-  visible_line(counts.out_of_domain_count, " outside " + outside_text(chosen) +
-                                               ": roughness clamped, specular extrapolated in proportion");
+  visible_line(counts.out_of_domain_count,
+               " outside " + outside_text(chosen) + ": roughness is clamped, specular extrapolated");
   line(counts.nan_count, " with NaN" + first_text(counts));
   line(counts.infinite_count, " with infinite values" + first_text(counts));
   line(counts.negative_count, " with negative values" + first_text(counts));
