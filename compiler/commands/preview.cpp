@@ -241,8 +241,9 @@ void add_preview_command(Command& app) {
       ->add_option("--directions", options.options.directions, "Light directions of an environment per pixel")
       ->range(16, 65536);
   command
-      ->add_option("--pixel-samples", options.options.samples_per_axis,
-                   "N x N samples per pixel (under an environment, only of its edge); 1: the pixel center")
+      ->add_option(
+          "--pixel-samples", options.options.samples_per_axis,
+          "N x N samples per pixel; under an environment, only at the edge of the shape; 1: the pixel center")
       ->range(1, 16);
   add_renderer_options(*command, options.renderers);
   command->footer(

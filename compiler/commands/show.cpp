@@ -183,7 +183,8 @@ std::string rows_text(const Fit& fit) {
 
 void print_lowering(const Fit& fit) {
   if (!fit.converter) {
-    std::cout << "No header: the fit could not be lowered (remapc fit --lower)\n";
+    std::cout << "No header, because the fit could not be lowered (use remapc fit --lower with a larger "
+                 "tolerance)\n";
     return;
   }
   std::cout << "Deviation of its header from the fit: alpha within " << error_text(fit.converter->alpha_bound)

@@ -141,8 +141,8 @@ class PixelSampler {
   std::uint64_t key_;
 };
 
-// Calls visit(half, light, geometry, solid_angle) for each lit direction of a pixel. `solid_angle` is what a
-// sample of its half represents.
+// Calls visit(half, light, geometry, solid_angle) for each lit direction of a pixel. `solid_angle` is the
+// share of directions that one sample of this half represents.
 void for_each_sample(const Mixture& mixture, const PixelSampler& sampler, const auto& visit) {
   for (std::size_t half = 0; half < kHalves; ++half)
     for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})

@@ -44,7 +44,8 @@ FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
   return factor;
 }
 
-// Fits the factor from sources to targets. Uses only the samples for which `counts` returns true.
+// Fits a factor, so that each source times the factor is close to its target. Uses only the samples for which
+// `counts` returns true.
 template <typename Counts, typename Source, typename Target>
 std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
                                           double pole, double least_shown, const Counts& counts,

@@ -27,9 +27,9 @@ inline constexpr int kMostSeeds = 64;
 // are returned unchanged.
 class SteadyRenderer final : public Renderer {
  public:
-  // Measures the noise of the external models among `models` under `light`, by two pictures of 128^2 at two
-  // widths each. Throws kInput if more than kMostSeeds pictures would be needed, and kUsage for unknown
-  // models.
+  // Measures the noise of the external models among `models` under `light`. For each model, compares two
+  // pictures of 128 x 128 pixels at each of two widths. Throws kInput if more than kMostSeeds pictures would
+  // be needed, and kUsage for unknown models.
   SteadyRenderer(const Renderer& inner, const std::vector<std::string>& models, const Light& light);
 
   // Returns the noise of a model that was measured.

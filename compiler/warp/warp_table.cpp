@@ -162,8 +162,8 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
   }
 }
 
-// Finds the texel closest to the image of every node that source texels look up. Often, most nodes of the box
-// are other nodes. They copy the result of the closest node, because the warp is undefined far from the
+// Finds the texel closest to the image of every node that source texels look up. The remaining nodes, often
+// most of the box, copy the result of the closest of these nodes, because the warp is undefined far from the
 // source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {

@@ -63,7 +63,7 @@ Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar&
 // A FormEnds holds the range in which a form is evaluated, as floats.
 struct FormEnds {
   float width_min = 0.0f, width_max = 0.0f;  // the domain, in the width parameter of the source
-  float width_from = 0.0f, width_to = 0.0f;  // range for clamping; at one end, it includes perfectly sharp
+  float width_from = 0.0f, width_to = 0.0f;  // range for clamping; the end towards a mirror is not limited
   float alpha_min = 0.0f;                    // alpha of the sharpest source texel in the domain
   float least_alpha = 0.0f;                  // smallest alpha of the target, because exponents are finite
 };
