@@ -55,7 +55,7 @@ class Builder {
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_) waiting.push_back(&item);
     while (!waiting.empty()) {
-      // Start with the items whose inputs are built. The order of a manifest guarantees that there are some.
+      // Start with the items whose inputs exist already. Because of the order of a manifest, there are some.
       std::vector<const ManifestItem*> ready, later;
       for (const ManifestItem* item : waiting) {
         const std::vector<std::string> inputs = inputs_of(*item);
@@ -85,8 +85,8 @@ class Builder {
   }
 
  private:
-  // Removes vanished items from the lock. An item whose fit still exists stays, so that a later build can
-  // delete the fit.
+  // Removes vanished items from the lock. If the fit of an item still exists, the item stays in the lock, so
+  // that a later build can delete the fit.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_) kept.insert(item.id);
@@ -99,7 +99,8 @@ class Builder {
     std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
   }
 
-  // Deletes the files of a vanished item and returns true. Does nothing if a file changed since the build.
+  // Deletes the files of a vanished item and returns true. If a file changed after the build, deletes
+  // nothing.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
     const std::vector<std::pair<fs::path, std::string>> files = {{folders_.table(id), known.table},
@@ -147,7 +148,7 @@ class Builder {
     if (execution_.progress) execution_.progress(done_, manifest_.size());
   }
 
-  // Returns true if the table of the last build can be reused because its renderer is not installed.
+  // Returns true if the table of the last build can be used again because its renderer is not installed.
   bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
     const auto last = last_lock_.items.find(item.id);
@@ -189,7 +190,7 @@ class Builder {
     record->header = sha256(text);
   }
 
-  // Calls `made` with a renderer that counts the pictures.
+  // Calls `made` with a renderer that counts pictures.
   template <class Make>
   auto with_pictures(BuiltItem* built, const Make& made) const {
     const TimedRenderer renderer(renderer_);
@@ -245,7 +246,7 @@ class Builder {
     options.source = item.metallic;
     options.target = item.specular;
     options.source_roles.fixed = item.fixed;
-    options.objective = recorded_objective("natural");  // A manifest cannot choose the objective of samples.
+    options.objective = recorded_objective("natural");  // a manifest cannot choose the objective of samples.
     options.resolution = item.resolution;
     options.count = item.count;
     options.seed = seed;
@@ -256,8 +257,8 @@ class Builder {
   }
 
   // Trains a network. The item defines the workflows of both ends, and the samples must have the same F0 of
-  // dielectrics. The samples are megabytes that `remapc sample` can remake, so the build only stores their
-  // hash in the fit.
+  // dielectrics. The build does not keep the samples, because they are megabytes, and `remapc sample` can
+  // make them again. It only stores their hash in the fit.
   WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item, BuiltItem* built) const {
     const std::string bytes = material_table_text(samples_of(network, item.seed, built));
     const Stopwatch stopwatch;
@@ -294,13 +295,13 @@ class Builder {
   }
 
   void write_converters(const FitFolder& folder) {
-    // Warps are made from textures and strokes, so a manifest never lists one.
+    // A manifest never lists warps, because they are made from textures and strokes.
     for (const WarpMapFit& fit : folder.warps) write_changed(folders_.header(fit.id), emit_header(fit));
     for (const EmittedFile& file : emit_shared_files(folder.fits))
       write_changed(folders_.generated / file.name, file.text);
   }
 
-  // The report takes a second to compute, so it is written only if it changed.
+  // The report takes a second to compute, so it is written only if its fits changed.
   void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
     for (const EmittedFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);

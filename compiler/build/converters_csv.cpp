@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// A Row is one row, keyed by column. Missing columns stay empty.
+// A Row is a row of the table, keyed by column. A missing column is empty.
 using Row = std::map<std::string, std::string>;
 
 const std::vector<std::string> kColumns = {"converter",
@@ -55,7 +55,8 @@ std::string joined(const std::vector<std::string>& remarks) {
   return text;
 }
 
-// Changes a text for numpy's genfromtxt, which knows no quotes and reads everything after # as a comment.
+// Changes a text so that numpy's genfromtxt can read it. genfromtxt has no quotes and treats everything after
+// # as a comment.
 std::string cell(std::string text) {
   for (char& c : text)
     if (c == ',')
@@ -90,8 +91,8 @@ void add_pictures(const Fit& fit, Row* row) {
   (*row)["ssim_least_at_alpha"] = figure(least->alpha);
 }
 
-// Adds how well the opposite converter restores a texel: the larger of the relative changes of alpha and
-// specular.
+// Adds how well the opposite converter restores a texel. This is the larger of the relative changes of alpha
+// and specular.
 void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
   const auto back = pairs.find({fit.target.model, fit.source.model});
   if (!is_measured(fit) || back == pairs.end()) return;

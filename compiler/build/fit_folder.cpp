@@ -29,6 +29,13 @@ bool holds_fits(const std::filesystem::path& folder) {
                                  [](const auto& entry) { return entry.path().extension() == ".json"; });
 }
 
+// Returns what is wrong with a folder that does not exist. Nobody typed the default, so its message must
+// explain more.
+std::string missing_text(const std::filesystem::path& folder) {
+  if (folder != default_fit_folder()) return "not a folder (give a folder with fits, *.json)";
+  return "this folder does not exist here (run remapc in your clone of remap, or add --fits CLONE/fits)";
+}
+
 }  // namespace
 
 std::filesystem::path default_fit_folder() {
@@ -39,7 +46,7 @@ std::filesystem::path default_fit_folder() {
 
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
-    throw input_error(folder.string() + ": not a folder (give a folder with fits, *.json)");
+    throw input_error(folder.string() + ": " + missing_text(folder));
   FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName ||
@@ -65,6 +72,11 @@ AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder
   if (std::filesystem::is_regular_file(name)) return load_any_fit(name);
   if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
     return load_any_fit(path);
+  if (!std::filesystem::is_directory(folder) && folder == default_fit_folder())
+    throw usage_error(
+        name + ": is not a file, and the folder " + folder.string() +
+        ", where remapc looks for fits, does not exist here (run remapc in your clone of remap, "
+        "or add --fits CLONE/fits)");
   std::vector<std::string> known;
   if (std::filesystem::is_directory(folder)) {
     const FitFolder loaded = load_fit_folder(folder);

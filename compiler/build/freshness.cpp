@@ -19,7 +19,7 @@ bool has_table(const ManifestItem& item) {
 
 namespace {
 
-// Raise this if every table must be swept again. The format of fits is separate.
+// Increase this number if every table must be swept again. The format of fits has another number.
 constexpr int kTableVersion = 3;
 
 bool has_current_format(const fs::path& fit) {

@@ -11,7 +11,7 @@
 namespace remap {
 
 struct BuildFolders {
-  std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
+  std::filesystem::path fits = "fits";  // fits, with tables/ in it; README.md there is the report
   std::filesystem::path generated = "generated";
 
   // Return the files of an item.
@@ -23,23 +23,23 @@ struct BuildFolders {
 // Returns true if items of this kind keep a table. A network keeps only its fit.
 bool has_table(const ManifestItem& item);
 
-// Hashes what an item is made from. `lock` holds the current state of its inputs.
+// Returns a hash of what an item is made from. `lock` has the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 
-// A Freshness lists the files of an item that are recorded in the lock and still match their inputs.
+// A Freshness lists the files of an item that the lock records and that still match their inputs.
 struct Freshness {
   bool table = false, fit = false, header = false;
   std::string reason;  // why the first stale file is not fresh
 };
 Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock);
 
-// Hashes the input of a folder's report: its fits.
+// Returns a hash of the fits of a folder, from which its report is made.
 std::string report_hash(const BuildFolders& folders);
 
-// Returns true if the files of the report exist and belong to the fits of the folder.
+// Returns true if the files of the report exist and were made from the fits of the folder.
 bool has_report(const BuildFolders& folders, const Lock& lock);
 
-// Returns the items of `lock` that are no longer in the manifest and whose fits still exist, by id.
+// Returns the items of `lock` that are no longer in the manifest, but whose fits still exist. Returns ids.
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
                                         const Lock& lock);
 

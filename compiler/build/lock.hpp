@@ -1,4 +1,4 @@
-// This file stores the hashes of a build, by which the next build decides what is up to date.
+// This file stores the hashes of a build. From these, the next build decides what is up to date.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ inline constexpr const char* kLockName = "manifest.lock";
 
 // A LockedItem holds the SHA-256 of an item's inputs and results. They are empty if there are none.
 struct LockedItem {
-  std::string recipe;  // hash of its recipe, the tool's version and the fits it is made from
+  std::string recipe;  // hash of its recipe, the version of remapc and the fits that it is made from
   std::string table;
   std::string fit;
   std::string header;
@@ -20,7 +20,7 @@ struct LockedItem {
 
 struct Lock {
   std::map<std::string, LockedItem> items;  // keyed by id
-  std::string report;                       // hash of the report's inputs: every fit of the folder
+  std::string report;                       // hash of all fits in the folder, from which the report is made
   bool operator==(const Lock&) const = default;
 };
 

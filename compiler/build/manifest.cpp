@@ -22,7 +22,7 @@ std::size_t read_count(const Field& field) {
 
 constexpr std::int64_t kLargestResolution = 8192;   // pictures of 268 MB
 constexpr std::int64_t kMostMaterials = 1'000'000;  // the limit of remapc sample
-// These limit the models of a group, which form pairs, and all items, which become files.
+// These limit the models of a group, which become pairs, and all items, which become files.
 constexpr std::size_t kMostModels = 100, kMostItems = 10'000;
 
 int read_resolution(const Field& field) {
@@ -31,8 +31,8 @@ int read_resolution(const Field& field) {
   return static_cast<int>(field.count());
 }
 
-// Returns the ordered pairs of a group: all of its `models`, or its `pairs`, in both directions unless
-// they are `one_way`.
+// Returns the ordered pairs of a group. These are all pairs of its `models`, or its `pairs`, in both
+// directions if it is not `one_way`.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
   if (group.contains("pairs")) {
@@ -137,7 +137,7 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   return id;
 }
 
-// Reads the items whose diffuse lobes differ from the hub's by design.
+// Reads the items whose diffuse lobes differ on purpose.
 void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
   list.list(0, [&](const Field& entry) {
     const std::string id = read_id(entry["id"], *items);

@@ -15,7 +15,7 @@ struct ReachRecord {
   std::string fit;            // SHA-256 of its file
   std::size_t materials = 0;  // number of compared materials
   double mean_excess = 0.0, largest_excess = 0.0;
-  double alpha = 0.0, specular = 0.0;  // excesses of the material with the largest one
+  double alpha = 0.0, specular = 0.0;  // excesses of the material with the largest excess
 };
 using ReachRecords = std::map<std::string, ReachRecord>;  // keyed by id
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kMark = " **(!)**";
 
-// Pairs with a smaller image error in both directions are listed without their SSIM.
+// If a pair has a smaller image error in both directions, it is listed without its SSIM.
 constexpr double kSmallError = 0.01;
 
 constexpr const char* kFigures = R"(
@@ -48,7 +48,7 @@ std::string percent_text(double value) {
 
 std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
 
-// A ModelPair holds the compared converters between two models, both ways.
+// A ModelPair holds the compared converters between two models, in both directions.
 struct ModelPair {
   std::string first, second;  // names of the models, in alphabetical order
   std::vector<const Fit*> there, back;
@@ -60,7 +60,7 @@ bool is_small(const ModelPair& pair) {
          std::all_of(pair.back.begin(), pair.back.end(), small);
 }
 
-// Returns pairs by the image error of the better direction, the best pair first.
+// Returns the pairs, sorted by the image error of the better direction. The best pair comes first.
 std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
   std::vector<ModelPair> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
@@ -130,7 +130,7 @@ std::string mark_text(const FitFolder& folder) {
          "pictures before you use one of them.\n";
 }
 
-// Returns the errors that the table of pairs leaves out.
+// Returns the errors that are not in the table of pairs.
 std::string small_errors_text(const std::vector<Fit>& fits) {
   double fit_error = 0.0, bound = 0.0;
   for (const Fit& fit : fits) {

@@ -1,4 +1,4 @@
-// This file writes the page that states how reliable each converter of a folder is.
+// This file writes the page that shows how reliable each converter of a folder is.
 #pragma once
 
 #include <string>
@@ -12,8 +12,7 @@ namespace remap {
 inline constexpr const char* kReportName = "README.md";
 inline constexpr const char* kFiguresName = "converters.csv";
 
-// Returns the page in Markdown and the table of all figures.
-// The same fits give the same bytes on every machine.
+// Returns the page in Markdown, and the table of all figures. Equal fits give equal bytes on every machine.
 std::vector<EmittedFile> report(const FitFolder& folder);
 
 // Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each

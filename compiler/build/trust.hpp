@@ -1,4 +1,5 @@
-// This file judges how reliable a converter of width and specular is, from its table's pictures.
+// This file decides how reliable a converter of width and specular is, from the pictures that its table
+// compares.
 #pragma once
 
 #include <string>
@@ -8,14 +9,14 @@
 
 namespace remap {
 
-// Above this image error, more than a third of the picture is wrong. The models differ too much for any
-// converter.
+// If the image error is larger, more than a third of the picture is wrong, and the models differ too much for
+// any converter.
 inline constexpr double kLargestTrustedError = 1.0 / 3.0;
 
-// Returns true if the fit comes from a table that compares spheres.
+// Returns true if the table of the fit compares spheres.
 bool is_measured(const Fit& fit);
 
-// Returns the RMS image error at the best parameters, or infinity if no pictures were compared.
+// Returns the RMS image error at the best parameters. If no pictures were compared, it is infinite.
 double image_error(const Fit& fit);
 
 // Returns why the user should check the converter first: `image error above 0.33` or `pictures never

@@ -148,7 +148,7 @@ void add_build_command(Command& app) {
                       "Items made at a time, 0: one per core; the results do not depend on it");
   add_renderer_options(*command, options.renderers);
   command->footer(
-      "An item is out of date where its entry in the manifest, its inputs or one of its files differ from "
+      "An item is out of date if its entry in the manifest, its inputs or one of its files differ from "
       "manifest.lock. --check compares converters.json with manifest.lock, too; `remapc emit --all --check` "
       "makes headers and converters.json again and compares their text. An interrupted build continues "
       "where it stopped.\n\n"

@@ -1,4 +1,4 @@
-// This file prints the comparison of fits, as a text table and as JSON.
+// This file prints a comparison of fits, as a text table and as JSON.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// These commands, `remapc chain` and `remapc invert`, make a fit from other fits.
+// This file is `remapc chain` and `remapc invert`. They make a fit from other fits.
 #include <iostream>
 
 #include "build/build.hpp"
@@ -81,7 +81,7 @@ void run_invert(const ChainCommand& command) {
     return;
   }
   std::cerr << path.string() << ": inverse of " << fit.id << "; "
-            << errors_text(inverse, "of the exact inverse held out") << "\n";
+            << errors_text(inverse, "held out from the exact inverse") << "\n";
 }
 
 void add_new_fit_options(Command& app, ChainCommand& command) {
@@ -104,7 +104,7 @@ void add_chain_command(Command& app) {
       ->required();
   add_new_fit_options(*command, options);
   command->footer(
-      "The domain of the new fit is where every step is inside its own. Its errors are the errors of the "
+      "In the domain of the new fit, every step stays in its own domain. Its errors are the errors of the "
       "steps, "
       "propagated to the end.\n\n"
       "Example:\n"

@@ -55,8 +55,7 @@ void run(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(Command& app) {
-  Command* command =
-      app.add_subcommand("check", "Look for faults in a table before it is fitted", kMeasureStage);
+  Command* command = app.add_subcommand("check", "Find errors in a table before it is fitted", kMeasureStage);
   CheckOptions& options = set_work<CheckOptions>(*command, run);
   options.table.add_options(*command);
   add_accept_light_flag(*command, options.accept_light);

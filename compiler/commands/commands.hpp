@@ -6,7 +6,7 @@
 
 namespace remap {
 
-// `remapc --help` lists the commands under these headings, in the order of work.
+// `remapc --help` lists the commands under these headings, in the order in which people use them.
 inline constexpr const char* kMeasureStage = "Measure";
 inline constexpr const char* kFitStage = "Fit";
 inline constexpr const char* kCompileStage = "Compile";

@@ -34,7 +34,7 @@ struct NamedFit {
 // An Entry holds the errors of a fit or a formula on the rows of the table.
 struct Entry {
   CandidateRecord candidate;
-  Json origin;          // its source, for JSON
+  Json origin;          // where it comes from, for JSON
   std::string why_not;  // why a formula does not apply, or empty
 };
 
@@ -113,7 +113,7 @@ void print_json(const Table& table, std::size_t row_count, const std::vector<Ent
   std::cout << json.dump(2) << "\n";
 }
 
-// Returns `A, B (why); C (why)`. Equal reasons of neighbors appear once.
+// Returns `A, B (why); C (why)`. If neighbours have the same reason, it appears once.
 std::string why_not_text(const std::vector<Entry>& entries) {
   std::string text, reason;
   for (const Entry& entry : entries) {

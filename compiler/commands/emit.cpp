@@ -73,7 +73,8 @@ bool is_generated(const std::filesystem::path& path) {
                              [&](std::string_view beginning) { return text.starts_with(beginning); });
 }
 
-// Returns a line for every file that is missing or differs from its fit, and for every header without a fit.
+// Returns a line for every file that is missing or differs from its fit, and for every header whose fit is
+// missing.
 std::vector<std::string> differences(const EmitCommand& options, const std::vector<EmittedFile>& files) {
   std::vector<std::string> found;
   for (const EmittedFile& file : files) {

@@ -115,8 +115,7 @@ void add_eval_command(Command& app) {
   command
       ->add_option(
           "--grid N", options.grid,
-          "Print converted values as CSV instead: N x N of the source's parameters in even steps over "
-          "the domain")
+          "Print converted values as CSV instead, for N x N source values in even steps over the domain")
       ->range(std::size_t{2}, std::size_t{1024});
   command->add_option("-o,--output FILE", options.output,
                       "File for the values of --grid (default: standard output)");

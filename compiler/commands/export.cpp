@@ -1,5 +1,5 @@
-// This file is `remapc export`, which writes a table of any form as plain CSV. A file beside it records its
-// making.
+// This file is `remapc export`, which writes a table of any form as plain CSV. A file beside it records how
+// the table was made.
 #include <algorithm>
 
 #include "commands/commands.hpp"

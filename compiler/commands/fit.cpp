@@ -28,10 +28,10 @@
 namespace remap {
 namespace {
 
-// Larger values are assumed to be typos: the networks of the paper have 300 units.
+// Larger values are most likely typing errors, because the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// `auto`, which lets pictures choose, comes before the names of the kinds.
+// `auto` comes before the names of the kinds. With it, pictures decide.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
   for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
@@ -47,7 +47,7 @@ struct FitCommand {
   bool swap = false, force = false, json = false;
 };
 
-// Throws if options of one regression are given together with another regression.
+// Throws if the user gave options of one regression together with another regression.
 void require_consistent(const FitCommand& command, const Command& app) {
   const std::string given(command.options.kind);
   const auto require_model = [&](const std::string& option, const std::string& model) {
@@ -78,7 +78,7 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << errors_text(fit, "held out") << "\n";
 }
 
-// Refuses a network that is too large to write before it is trained.
+// Refuses a network that is too large for a fit file, before it is trained.
 void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, std::size_t outputs) {
   std::size_t width = inputs, numbers = 2 * (inputs + outputs);
   for (const std::size_t units : hidden) {
@@ -93,7 +93,8 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
                     " numbers)");
 }
 
-// Refuses other options for a table of metallic materials. Only a network from specular to metallic fits it.
+// Refuses other options for a table of metallic materials. Only a network that converts specular to metallic
+// can be fitted to it.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
     throw usage_error(command.table.path +
@@ -134,8 +135,8 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << "\n";
 }
 
-// Throws kOutput if the fit's folder cannot be written or created, before the work starts. Creates nothing,
-// so that a table that cannot be fitted leaves no empty folder.
+// Throws kOutput if the folder of the fit cannot be written or created, before the work starts. Creates
+// nothing. So if the table cannot be fitted, no empty folder remains.
 void require_output_folder(const std::filesystem::path& folder) {
   std::filesystem::path existing = folder;
   while (existing.has_parent_path() && existing != existing.parent_path() &&
@@ -175,7 +176,8 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   report(command, path, fit);
 }
 
-// Keeps a fit for remapc even if it cannot be lowered. Only texremap and headers need its converter.
+// Lowers the fit. If this fails, the fit is kept without a converter, because only texremap and headers need
+// one.
 void lower_if_possible(const FitCommand& command, Fit* fit) {
   try {
     add_converter(fit, command.tolerance);
@@ -217,8 +219,8 @@ void add_regression_options(Command& app, FitCommand& command) {
   FitOptions& options = command.options;
   app.option_group("Regression");
   app.add_option("--model NAME", options.kind, one_of(kModels, "kind of fit"),
-                 "auto: the fewest terms that pictures cannot tell from more; parametric: polynomial and "
-                 "exponentials of the paper; svr: support vectors; mlp: a small network")
+                 "auto: as few terms as pictures need; parametric: polynomial and exponentials of the paper; "
+                 "svr: support vectors; mlp: a small network")
       ->default_text("auto");
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
@@ -237,8 +239,8 @@ void add_regression_options(Command& app, FitCommand& command) {
   app.add_option("--held-out", options.held_out_fraction, "Fraction of the rows held out to measure errors");
   app.add_option(
          "--lower TOLERANCE", command.tolerance,
-         "Largest proven deviation from the fit of the form that texremap and headers run: absolute for "
-         "target alpha, relative to the largest one for target specular")
+         "Largest allowed deviation of the converter from the fit: absolute for target alpha, relative to "
+         "the largest value for target specular")
       ->positive();
   app.add_option("--seed", options.seed, "Seed of the split and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());

@@ -68,7 +68,7 @@ void list_fits(const ListOptions& options) {
          {"target", fit.template_model},
          {"kind", kWarpKind},
          {"copy_rms_error", fit.copy_rms_error}},
-        "appearance of a template, whole materials" +
+        "appearance warp of whole materials" +
             (fit.copy_rms_error < 0.0 ? "" : "; " + percent(fit.copy_rms_error) + " from an exact copy"));
   if (list.empty()) std::cerr << options.fit_folder.string() << ": no fits (*.json) in this folder\n";
   if (options.json) std::cout << list.dump(2) << "\n";

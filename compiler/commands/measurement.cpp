@@ -27,7 +27,8 @@ std::string pictures_text(const PictureCount& pictures) {
          (lost == 0 ? "" : ", " + counted(lost, "worker") + " lost");
 }
 
-// Returns `about 12:30 in all`, or nothing until some rows and ten pictures are done, and after the end.
+// Returns `about 12:30 in all`. Returns an empty text before some rows and ten pictures are done, and after
+// the end.
 std::string estimate_text(double seconds, const PictureCount& pictures, std::size_t done, std::size_t rows) {
   constexpr std::size_t kEnoughPictures = 10;
   if (pictures.rendered + pictures.cached < kEnoughPictures || done == 0 || done == rows) return "";
@@ -46,9 +47,9 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
     return changed;
   };
   app.add_option(prefix + "-roughness NAME[:CONVENTION]", roles, Reader<ParameterRoles>{roughness, {}},
-                 "Parameter of the " + side + " that is its roughness (default: as the model declares it)");
-  app.add_option(prefix + "-specular NAME", roles.specular, "Parameter that is its specular");
-  app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter that is its diffuse");
+                 "Parameter of the " + side + " to use as roughness (default: the model's roughness)");
+  app.add_option(prefix + "-specular NAME", roles.specular, "Parameter to use as specular");
+  app.add_option(prefix + "-diffuse NAME", roles.diffuse, "Parameter to use as diffuse");
   const auto value = [](const ParameterSetting& setting) {
     if (setting.values.size() != 1)
       setting.fail(std::to_string(setting.values.size()) +

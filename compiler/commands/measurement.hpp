@@ -1,4 +1,4 @@
-// This file is shared by `remapc sweep` and `remapc sample`: two models, their pictures, and the table.
+// This file holds what `remapc sweep` and `remapc sample` share: two models, their pictures, and the table.
 #pragma once
 
 #include <cmath>
@@ -19,9 +19,9 @@
 namespace remap {
 
 struct MeasurementOptions {
-  PairOptions pair;  // set when the command runs; its objective follows from the next fields
+  PairOptions pair;  // set when the command runs; its objective comes from the next members
   std::string objective = "natural";
-  std::optional<std::vector<double>> lights;  // angles; if missing, the objective sets both
+  std::optional<std::vector<double>> lights;  // angles; if unset, those of the objective
   std::optional<Weighting> weighting;
   double distance = 3.0;
   bool keep_irradiance = false;
@@ -30,8 +30,8 @@ struct MeasurementOptions {
   unsigned jobs = 0;
   RendererOptions renderers;
 
-  // These functions add options to `app`: the models and the table, how pictures are made and compared,
-  // threads and renderers.
+  // These functions add options to `app`. They are for the models and the table, for pictures and how they
+  // are compared, and for threads and renderers.
   void add_table_options(Command& app, const std::string& table);
   void add_picture_options(Command& app);
   void add_execution_options(Command& app);
@@ -45,12 +45,13 @@ class Measurement {
   explicit Measurement(const MeasurementOptions& options);
 
   const RendererSet& renderer() const { return *renderer_; }
-  // Throws kOutput if the table exists or its folder cannot be made. Shows the progress of `rows` rows until
-  // write(), under `label`.
+  // Throws kOutput if the table exists or its folder cannot be made. Until write(), shows the progress of
+  // `rows` rows with the text `label`.
   SweepExecution start(const std::string& label, std::size_t rows);
   // Writes the table with its comments, and prints remarks about its light and the renderers.
   void write(const std::string& table, const Comments& comments);
-  // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
+  // Prints a summary of the rows as a line. With --json, prints JSON instead: the name of the table, the
+  // fields of `json`, and the summary.
   template <typename Row>
   void report(const std::vector<Row>& rows, const Json& json = nullptr) const {
     std::map<std::string, std::size_t> statuses;
@@ -65,14 +66,14 @@ class Measurement {
  private:
   void report(const std::map<std::string, std::size_t>& statuses, double rms_error, const Json& fields) const;
   void show_progress(const std::string& models);
-  // Estimates the time of all rows, and prints the first estimate if no terminal shows progress.
+  // Estimates the time for all rows. If no terminal shows progress, prints the first estimate.
   void estimate(const std::string& models, std::size_t done, std::size_t rows);
 
   const MeasurementOptions& options_;
   Stopwatch stopwatch_;
   std::optional<Progress> progress_;  // counts rows; its label also counts the pictures of workers
   std::mutex mutex_;
-  std::string estimate_;  // estimated time of all rows; empty if unknown
+  std::string estimate_;  // estimated time for all rows; empty if unknown
   std::unique_ptr<RendererSet> renderer_;
   LightMatch light_;
 };

@@ -14,7 +14,7 @@ namespace remap {
 // Adds --fits, whose default is default_fit_folder().
 void add_fits_option(Command& app, std::filesystem::path& folder, const std::string& text);
 
-// Adds --force, without which require_new() (core/files.hpp) refuses to replace a result.
+// Adds --force. Without it, require_new() (core/files.hpp) refuses to replace a result.
 void add_force_flag(Command& app, bool& force);
 
 // Reads the angle of a light: `headlight`, or degrees from the camera.
@@ -28,7 +28,7 @@ struct ParameterSetting {
   ParameterSetting(const std::string& option, const std::string& word);
   [[noreturn]] void fail(const std::string& reason) const;  // throws kUsage
 
-  std::string context;  // option and word, for messages
+  std::string context;  // option and word, with which messages begin
   std::string name;
   std::vector<double> values;
 };

@@ -116,7 +116,7 @@ void print(const SetFigure& figure, const std::string& copied) {
             << (figure.copied ? "; " + copied + " " + text(*figure.copied) : "") << "\n";
 }
 
-// Resolves the conversion as `texremap convert` does, and writes nothing.
+// Interprets the conversion like `texremap convert`, but writes nothing.
 ConvertPlan plan_of(const PreviewCommand& command) {
   ConvertOptions options;
   options.folder = command.subject;
@@ -248,8 +248,9 @@ void add_preview_command(Command& app) {
       ->add_option("--directions", options.options.directions, "Light directions of an environment per pixel")
       ->range(16, 65536);
   command
-      ->add_option("--pixel-samples", options.options.samples_per_axis,
-                   "N x N samples per pixel (under an environment, only of its edge); 1: the pixel center")
+      ->add_option(
+          "--pixel-samples", options.options.samples_per_axis,
+          "N x N samples per pixel; under an environment, only at the edge of the shape; 1: the pixel center")
       ->range(1, 16);
   add_renderer_options(*command, options.renderers);
   command->footer(

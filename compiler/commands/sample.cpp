@@ -1,4 +1,5 @@
-// `remapc sample` matches random materials of a model and writes a table of named parameters.
+// This file is `remapc sample`. It matches random materials of a model and writes a table of named
+// parameters.
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"

@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// A ShareProgress shows a progress line `<command> <subject>` while it exists, and makes signals
-// (interruption.hpp) stop the work. Pass it by std::ref where a FitProgress is expected.
+// A ShareProgress shows a progress line `<command> <subject>` while it exists. Meanwhile, signals stop the
+// work (interruption.hpp). Where a FitProgress is expected, pass it by std::ref.
 class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& subject)

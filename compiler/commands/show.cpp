@@ -128,15 +128,15 @@ void print_mapping(const CompactForm& form) {
     std::cout << "  above specular2 " << decimal_text(*form.specular_limit) << ", alpha2 changes by alpha1 ("
               << decimal_text(form.hinge.turn) << " + " << decimal_text(form.hinge.turn_by_alpha)
               << " alpha1) x / (1 + " << decimal_text(form.hinge.bend)
-              << " x), x the share that is cut off\n";
+              << " x), where x is the fraction that is cut off\n";
   if (form.alpha_limit)
     std::cout << "  above alpha2 " << decimal_text(*form.alpha_limit) << ", specular2 changes by "
-              << decimal_text(form.hinge.spread) << " times the share that is cut off\n";
+              << decimal_text(form.hinge.spread) << " times the fraction that is cut off\n";
 }
 
 std::string percent_text(double share) { return number_text(rounded_up(100.0 * share, 2)) + " %"; }
 
-// Returns the fractions of the domain in which the target is at no limit, at the limit of alpha, at the limit
+// Returns four fractions of the domain: where the target is at no limit, at the limit of alpha, at the limit
 // of specular, and at both.
 std::array<double, 4> limit_shares(const Fit& fit) {
   constexpr int kSteps = 100;
@@ -159,7 +159,7 @@ std::array<double, 4> limit_shares(const Fit& fit) {
 void print_limits(const Fit& fit) {
   const std::array<double, 4> shares = limit_shares(fit);
   if (shares[0] > 1.0 - 1e-9) return;
-  std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
+  std::cout << "At the limits of " << fit.target.model << ", in fractions of the domain\n  neither "
             << percent_text(shares[0]) << "\n  alpha " << number_text(fit.limits.alpha) << ": "
             << percent_text(shares[1]);
   if (fit.limits.specular)
@@ -183,7 +183,8 @@ std::string rows_text(const Fit& fit) {
 
 void print_lowering(const Fit& fit) {
   if (!fit.converter) {
-    std::cout << "No header: the fit could not be lowered (remapc fit --lower)\n";
+    std::cout << "No header, because the fit could not be lowered (use remapc fit --lower with a larger "
+                 "tolerance)\n";
     return;
   }
   std::cout << "Deviation of its header from the fit: alpha within " << error_text(fit.converter->alpha_bound)
@@ -191,7 +192,7 @@ void print_lowering(const Fit& fit) {
             << " (proven)\n";
 }
 
-// Prints the round trip through the inverse converter in `folder`, if there is one.
+// If `folder` has the inverse converter, prints the error of the round trip through it.
 void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
   const auto path = folder / (converter_id(fit.target.model, fit.source.model) + ".json");
   if (!std::filesystem::is_regular_file(path)) return;
@@ -225,7 +226,7 @@ void print_trust(const Fit& fit) {
     std::cout << "Difference of the models: unknown (not validated by rendering)\n";
   }
   if (fit.pictures)
-    std::cout << "Pictures, by materials and lights that chose nothing\n  RMSE of display values "
+    std::cout << "Pictures, with materials and lights that the fit did not use\n  RMSE of display values "
               << fixed(fit.pictures->converted.rmse, 2) << " % (numbers copied "
               << fixed(fit.pictures->copied.rmse, 2) << " %), under one light "
               << fixed(100.0 * fit.pictures->converted.relative, 0) << " % of the picture (copied "

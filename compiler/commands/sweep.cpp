@@ -19,7 +19,7 @@ struct SweepCommand : MeasurementOptions {
   std::size_t roughness_samples = 30, specular_samples = 30;
   Range roughness_range{0.01, 1.0};
   std::optional<Range> specular_range;  // if missing, the model's range
-  TableInput samples_of;                // the table whose samples are used; without a path, a grid
+  TableInput samples_of;                // a table whose samples are used; if it has no path, a grid is used
 };
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
@@ -85,7 +85,7 @@ void add_options(Command& app, SweepCommand& command) {
   command.add_picture_options(app);
   app.option_group(kRareOptions);
   app.add_option("--columns MAP", command.samples_of.columns, columns_reader(),
-                 "Names of columns in the table of --samples-of, OWN=FILE,...");
+                 "Names of the columns in the table of --samples-of, as OWN=FILE,...");
   app.add_option("--stages", command.sweep.stages,
                  "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from "
                  "the result of 2")

@@ -19,7 +19,8 @@ void TableInput::add_options(Command& app, bool is_required) {
   app.option_group("Input");
   app.add_option(
       "--columns MAP", columns, columns_reader(),
-      "Names of columns in the file, OWN=FILE,...; sztrajman-2019, the published table, is recognised");
+      "Names of the columns in the file, as OWN=FILE,... (default: detected for the published table, "
+      "sztrajman-2019)");
   app.add_option("--source,--from MODEL", source, "Source model (default: from the table)");
   app.add_option("--target,--to MODEL", target, "Target model (default: from the table)");
 }
@@ -55,7 +56,7 @@ Reader<ColumnMap> columns_reader() {
 
 void add_accept_light_flag(Command& app, bool& accept_light) {
   app.add_flag("--accept-light", accept_light,
-               "Go on where the source's light is rescaled so that specular changes by more than 5 %");
+               "Continue even if different light of the two renderers changes specular by more than 5 %");
 }
 
 }  // namespace remap

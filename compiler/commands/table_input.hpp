@@ -16,8 +16,8 @@ struct TableInput {
   // Adds the options. `is_required` is true if the command needs a table.
   void add_options(Command& app, bool is_required = true);
 
-  // Reads the file once. `bytes`, if not null, receives its whole_text(). Throws kInput and kUsage like
-  // parse_table. A table of named parameters is an error.
+  // Reads the file once. If `bytes` is not null, it receives whole_text() of the table. Throws kInput and
+  // kUsage like parse_table(). For a table of named parameters, throws an error.
   Table read(std::string* bytes = nullptr) const;
   // Reads a table of either form.
   AnyTable read_any(std::string* bytes = nullptr) const;
@@ -28,7 +28,8 @@ struct TableInput {
 
 Reader<ColumnMap> columns_reader();
 
-// Adds --accept-light, which accepts light that is_wrong_light() (table/light.hpp) finds.
+// Adds --accept-light. With it, a difference of light that light_remark() (table/light.hpp) would report as
+// an error is accepted.
 void add_accept_light_flag(Command& app, bool& accept_light);
 
 }  // namespace remap

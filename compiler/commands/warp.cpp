@@ -28,13 +28,13 @@ struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
   std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string distance;                              // if empty: relative, or plain if both are profiles
+  std::string distance;  // if empty: plain if both materials are profiles, otherwise relative
   bool exact = false;
   std::filesystem::path output, copy, report;
   bool force = false, json = false;
 };
 
-// Returns the stroke pairs of all options, at least one.
+// Returns the stroke pairs of all options. There is at least one.
 std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
                                    const MapFrame& target) {
   std::vector<StrokePair> strokes;
@@ -85,9 +85,10 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const WarpMap
                           std::to_string(found.target_dimensions) + ")"},
        {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
        {"directions fixed by strokes", std::to_string(found.fixed_directions)},
-       {"appearances of the template used", percent(found.coverage)},
+       {"used part of the template's appearances", percent(found.coverage)},
        {"folds", percent(found.fold_share)},
-       {"distance of strokes after the warp, of the template's spread", percent(found.stroke_distance)},
+       {"distance of strokes after the warp, relative to the template's spread",
+        percent(found.stroke_distance)},
        {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}},
       file.remarks,
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
@@ -172,8 +173,8 @@ void warp_textures(const WarpCommand& command) {
                      " of the template's spread\n";
   if (source.is_albedo)
     more +=
-        "  the source has a diffuse map only: specular 0 and alpha 1 assumed, materials distinguished by "
-        "color\n";
+        "  the source has only a diffuse map, so remapc uses specular 0 and alpha 1, and its colors show the "
+        "materials\n";
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 
@@ -203,7 +204,7 @@ void require_copy_alone(const WarpCommand& command) {
     throw usage_error("--report: not available for tables such as " + table + " (remove this option)");
 }
 
-// Copies texels, because tables have no parameters to fit.
+// Copies texels, because a table has no parameters to fit.
 void warp_tables(const WarpCommand& command) {
   require_copy_alone(command);
   const MaterialSet source = read_material_set(command.source, command.source_model),
@@ -233,9 +234,9 @@ void run(const WarpCommand& command) {
 
 void add_stroke_options(Command& app, WarpCommand& command) {
   app.option_group("Strokes");
-  app.add_option(
-         "--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
-         "Two images with a color for each region, on a transparent background or on the most frequent color")
+  app.add_option("--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
+                 "Two images with one color for each region; the background is transparent or the most "
+                 "frequent color")
       ->type_size(2);
   app.add_option("--stroke SOURCE_MASK TEMPLATE_MASK", command.masks,
                  "Two masks that mark one region; may be repeated")
@@ -267,7 +268,7 @@ void add_warp_command(Command& app) {
   WarpCommand& options = set_work<WarpCommand>(*command, run);
   command
       ->add_option("source", options.source,
-                   "Folder of the set that keeps its pattern; may hold a diffuse map only")
+                   "Folder of the set that keeps its pattern; it may have only a diffuse map")
       ->required();
   command->add_option("template", options.target, "Folder of the set whose reflectance is used")->required();
   add_stroke_options(*command, options);

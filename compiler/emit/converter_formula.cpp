@@ -11,7 +11,7 @@ bool is_number(const Expression& expression, float value) {
   return expression.op == Op::kNumber && expression.number == value;
 }
 
-// Returns the first factor of a product, or the expression itself if it is not a product.
+// Returns the first factor of a product. If the expression is not a product, returns the expression.
 Expression& first_factor(Expression& expression) {
   return expression.op == Op::kMultiply ? first_factor(expression.terms[0]) : expression;
 }

@@ -18,8 +18,7 @@ std::string range_text(const std::string& name, const Range& range) {
   return name + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
-// Returns how much pictures differ, and where the numbers come from, in words that need no knowledge of
-// remap.
+// Returns how much pictures differ, and where the numbers come from, for readers who do not know remap.
 std::string provenance(const Fit& fit) {
   const auto comment = [&](const std::string& key) {
     const auto found = fit.table.comments.find(key);

@@ -67,7 +67,8 @@ std::string provenance(const WorkflowFit& fit) {
   return text;
 }
 
-// Returns texels over the whole range, the same everywhere: fractions of multiples of irrational numbers.
+// Returns a texel from the whole range. It is the same everywhere, because it consists of fractions of
+// multiples of irrational numbers.
 WarpTexel candidate(std::size_t number) {
   constexpr std::array<double, kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
                                                           0.6710436, 0.5497005, 0.4503046};
@@ -79,8 +80,8 @@ WarpTexel candidate(std::size_t number) {
   return texel;
 }
 
-// Returns the distance of a texel, in nodes, from the place where another node becomes the closest. Blended
-// tables have no such places, so the distance is 1.
+// Returns how far a texel is, in nodes, from places where another node becomes the closest. Blended tables
+// have no such places, so the result is 1.
 double distance_to_tie(const CompiledWarp& warp, const WarpTexel& texel) {
   double distance = 1.0;
   if (!std::holds_alternative<CopiedNodes>(warp.table.entries)) return distance;

@@ -1,4 +1,4 @@
-// This file runs the two steps from a fit to its header. describe() gives the data of the header
+// This file makes a header from a fit in two steps. describe() returns the data of the header
 // (header_data.hpp), and fill() its text.
 #include "emit/emit.hpp"
 

@@ -1,5 +1,5 @@
-// This file turns fits into C++: a generated header for each, and the data of all for texremap. The same fit
-// gives the same bytes on every machine.
+// This file makes C++ from fits: a generated header for each fit, and the data of all fits for texremap.
+// Equal fits give equal bytes on every machine.
 #pragma once
 
 #include <string>
@@ -15,14 +15,16 @@ namespace remap {
 // not finite as a float.
 std::string emit_header(const Fit& fit);
 
-// Return the generated headers of converters of whole materials. A warp has the specular workflow on both
-// sides. Both functions throw kInput if require_valid() does.
+// Return the generated headers for converters of whole materials. A warp has the specular workflow on both
+// sides. Both functions throw the errors of require_valid().
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 
-// An EmittedFile is the text of a file that is made from fits.
+// An EmittedFile is made from all fits together, sorted by id. `converters.json` is the data for texremap.
+// The converters between built-in models, and from exponents, are written in each language
+// (`languages/converters.h`, ...). Throws kNumeric for a fit without a converter.
 struct EmittedFile {
-  std::string name;  // within the folder of results
+  std::string name;  // path within the folder of headers
   std::string text;
 };
 

@@ -1,4 +1,4 @@
-// This file writes the text of a header: templates/frame.in around the part for its kind.
+// This file writes the text of a header. templates/frame.in is the frame around the part for each kind.
 // templates/converter*.in is for width and specular, templates/material*.in for whole materials.
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -38,7 +38,7 @@ std::string strides(const Parameters& parameters) {
                 [](const MaterialParameter& parameter) { return parameter.name + "_stride = 1"; });
 }
 
-// Returns the stride of each channel: in.diffuse_stride three times, ...
+// Returns the stride of each channel, such as in.diffuse_stride three times.
 std::string channel_strides(const Parameters& parameters, const std::string& prefix) {
   return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
     const std::string text = prefix + parameter.name + "_stride";
@@ -89,7 +89,7 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
   }
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
-  // Adds the names of specular in the models. The names of the widths are in every header.
+  // Adds the names of specular in both models. Every header has the names of the widths.
   body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
                    "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   const auto meaning = [](const HeaderEnd& end) {
@@ -145,8 +145,8 @@ Body body_of(const HeaderData& data, const Material& material) {
                                             {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})};
 }
 
-// Returns a line of text that is safe in a comment. A backslash at its end, even before blanks, or its
-// trigraph would pull the next line of code into the comment.
+// Makes a line of text safe for a comment. A backslash at its end, even before blanks, or the trigraph of a
+// backslash would join the next line of code to the comment.
 std::string commented(std::string_view line) {
   const std::size_t end = line.find_last_not_of(" \t");
   const std::string_view text = line.substr(0, end == std::string_view::npos ? 0 : end + 1);
@@ -154,7 +154,8 @@ std::string commented(std::string_view line) {
   return safe + (safe.ends_with('\\') || safe.ends_with("?\?/") ? "." : "");
 }
 
-// Text from fits enters a header only here, except names with their own rules (is_valid_id and the like).
+// Only this function writes text from fits into a header. Names have rules of their own (is_valid_id() and
+// others).
 std::string comment_lines(std::string_view text) {
   std::string lines;
   for (;;) {

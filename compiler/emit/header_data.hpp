@@ -18,38 +18,39 @@ struct WarpHeader {
   double copy_rms_error = -1.0;
 };
 
-// A HeaderEnd is source or target.
+// A HeaderEnd is the source or the target of a header.
 struct HeaderEnd {
   std::string model;  // such as `mitsuba/ggx`
-  std::string width;  // the name of its convention
+  std::string width;  // name of its roughness encoding
   // These are the members of the header's Input or Output. `width` comes first if there are two, and last for
   // materials.
   std::vector<MaterialParameter> parameters;
   std::string workflow = {}, diffuse = {};  // for whole materials: `specular`, `plain`
 };
 
-// A GoldenValues holds a texel and the fit's result for it: one number for each channel of each parameter.
+// A GoldenValues holds a texel and the result of the fit. Both have one number for each channel of each
+// parameter.
 struct GoldenValues {
   std::vector<float> in, out;
-  std::vector<float> within;  // permitted error of each output; if empty, the template has one for all
+  std::vector<float> within;  // permitted error of each output; if empty, the template has one error for all
 };
 
 struct HeaderData {
   std::string id;
-  std::string title;       // a sentence
+  std::string title;       // one sentence
   std::string provenance;  // sentences on several lines
   HeaderEnd source, target;
   std::vector<GoldenValues> golden;
-  std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network is folded()
+  std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network must be folded()
 };
 
 // Describes a fit. Throws kNumeric for a fit without a converter.
 HeaderData describe(const Fit& fit);
-// Describe fits of whole materials. Both functions throw kInput if require_valid() does.
+// Describe fits of whole materials. Both functions throw the errors of require_valid().
 HeaderData describe(const WorkflowFit& fit);
 HeaderData describe(const WarpMapFit& fit);
 
-// Returns the text. Throws kNumeric if a number is not finite as a float.
+// Returns the text of the header. Throws kNumeric if a number is not finite as a float.
 std::string fill(const HeaderData& data);
 
 // Returns the converter of `fit`. Throws kNumeric if there is none.
@@ -57,8 +58,8 @@ const ConverterData& require_converter(const Fit& fit);
 
 // The following are parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-// Returns the network with its scalings folded into the weights. The first layer reads raw inputs (after the
-// poles of their scalings), and the last layer gives raw outputs.
+// Returns the network with its scalings folded into the weights. Then the first layer reads inputs without
+// scaling (after the poles), and the last layer returns outputs without scaling.
 Network folded(const Network& network);
 
 }  // namespace remap

@@ -27,7 +27,7 @@ struct Parts {
   std::vector<Statement> numbers, colors;
 };
 
-// Returns a sentence on units and errors.
+// Returns a sentence about units and errors.
 std::string meaning_of(const Fit& fit) {
   const auto side = [](const ModelSide& model) {
     return model.model + " (" + std::string(encoding_name(model.roughness)) + ", " + model.specular + ")";
@@ -46,8 +46,8 @@ Parts parts_of(const Fit& fit) {
   return parts;
 }
 
-// Returns a line for each statement: `start`, its name and its value. The line of an output begins with
-// `last` instead.
+// Returns a line for each statement, with `start`, its name and its value. The line of an output begins with
+// `last` instead of `start`.
 std::string lines_of(const std::vector<Statement>& statements, const Notation& notation,
                      const std::string& start, const std::string& last, const std::string& end) {
   const std::vector<std::string> colors =

@@ -1,4 +1,5 @@
-// This file writes converters in other languages: a function for one texel, with the header's formula.
+// This file writes converters in other languages, as a function for one texel. The formula is that of the
+// header.
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ inline constexpr NamedValues<Language, 6> kLanguages = {{{Language::kC, "c"},
                                                          {Language::kHlsl, "hlsl"},
                                                          {Language::kMaterialX, "materialx"}}};
 
-// Returns the extension of the language's files: `.h`.
+// Returns the extension of files in the language, such as `.h`.
 std::string extension_of(Language language);
 
 // Returns a file with a function for each fit, in order. `name` is the file's name without extension. Throws

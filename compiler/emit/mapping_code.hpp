@@ -1,5 +1,5 @@
-// This file provides the code of a converter for the text of its header. The templates contain everything
-// else: rows, channels, self-test.
+// This file writes the code of a converter for its header. The templates have the rest: rows, channels, and
+// the self-test.
 #pragma once
 
 #include <string>
@@ -9,25 +9,25 @@
 
 namespace remap {
 
-// Returns `struct Form` of a converter, which runtime/stages/code/form_rows.inc uses.
+// Returns the code of `struct Form` for a converter. runtime/stages/code/form_rows.inc uses this struct.
 std::string form_code(const ConverterData& converter);
 
 struct MaterialCode {
   std::string formula;
-  std::string constants;  // definitions besides those of source and target
+  std::string constants;  // definitions apart from those of source and target
   std::string functions;  // functions of namespace detail
-  std::string block;      // the number of texels that are converted together
-  std::string call;       // converts a block: rows `from` to rows `to`
-  std::string within;     // tolerance for golden values, a float literal
+  std::string block;      // number of texels that are converted together
+  std::string call;       // call that converts a block, from rows `from` to rows `to`
+  std::string within;     // tolerance for golden values, as a float literal
 };
 
 MaterialCode material_code(const WorkflowConversion& conversion);
 MaterialCode material_code(const WarpHeader& header);
 
 // network_function() returns `void NAME(std::size_t count, const float* const* in, float* const* out)`, for
-// counts up to kBlock. The function turns rows of a network's inputs into rows of its outputs. The network
-// must be folded(). network_helpers() returns what all functions of one activation need before them. Both use
-// `kBlock`, `bits` and `float_from_bits` of the header.
+// counts up to kBlock. This function computes rows of a network's outputs from rows of its inputs. The
+// network must be folded(). network_helpers() returns the code that all functions with one activation need
+// before them. Both use `kBlock`, `bits` and `float_from_bits` of the header.
 std::string network_helpers(Activation activation);
 std::string network_function(const std::string& name, const Network& network);
 // Returns kBlock: the largest block, up to 128, whose rows of all layers fit into the first-level cache.

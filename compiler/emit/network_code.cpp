@@ -1,11 +1,12 @@
-// This file writes networks as code: a loop over the units of each layer, with rows of texels innermost.
+// This file writes networks as code. The code loops over the units of each layer, and innermost over rows of
+// texels.
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::size_t kCacheFloats = 6144;  // bytes of rows: three quarters of a first-level cache of 32 KB
+constexpr std::size_t kCacheFloats = 6144;  // size of all rows: 24 of the 32 KB of a first-level cache
 constexpr std::size_t kUnitsAtOnce = 4;     // hidden units that `two_layers` (layers.in) computes together
 
 std::string layer_table(const std::string& name, const Layer& layer) {
@@ -18,8 +19,8 @@ std::string layer_table(const std::string& name, const Layer& layer) {
   return table_code(name, layer.input_count + 1, numbers);
 }
 
-// Returns the calls that compute each layer from the rows of the previous layer. `last` receives the last
-// rows' name.
+// Returns the calls that compute each layer from the rows of the previous layer. `last` receives the name of
+// the last rows.
 std::string layer_calls(const std::string& name, const std::vector<Layer>& layers, std::string* last) {
   const auto table = [&](std::size_t l) { return "k_" + name + "_" + std::to_string(l); };
   const auto units = [&](std::size_t l) { return std::to_string(layers[l].output_count()); };

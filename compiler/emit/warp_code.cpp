@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// Returns `a,b,c` with `a_line` numbers on each line. It has no spaces, because tables are large.
+// Returns numbers as `a,b,c`, with `a_line` numbers on each line. It has no spaces, because tables are large.
 template <typename Numbers>
 std::string list_text(const Numbers& numbers, std::size_t a_line) {
   std::string text;
@@ -30,7 +30,7 @@ std::string array_text(const std::string& type, const std::string& name, const s
   return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
 }
 
-// A Part is the file of code and the numbers of one kind of coordinates or of table.
+// A Part is a file of code, and the numbers for one kind of coordinates or of tables.
 struct Part {
   std::string_view file;
   std::string numbers;

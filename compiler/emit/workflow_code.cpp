@@ -1,4 +1,5 @@
-// This file writes conversions between workflows as C++: runtime/stages/code with both ends' conventions.
+// This file writes conversions between workflows as C++. It takes the code of runtime/stages/code and adds
+// the conventions of both ends.
 #include "core/number_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "formula/text_template.hpp"

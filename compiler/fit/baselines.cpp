@@ -39,13 +39,13 @@ const ExponentFormula kExponentFormulas[] = {
     {"obj2gltf", "roughness = 1 - n / 1000", [](double n, double) { return clamp01(1.0 - n / 1000.0); }},
 };
 
-// Pharr, Jakob and Humphreys use this in pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha().
+// pbrt-v3 has this formula by Pharr, Jakob and Humphreys, in TrowbridgeReitzDistribution::RoughnessToAlpha().
 double pbrt_alpha(double roughness) {
   const double x = std::log(std::max(roughness, 1e-3));
   return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-// Returns why a parameter's number is not copied from one model to the other, or an empty text.
+// Returns why the number of a parameter is not copied from one model to the other, or an empty text.
 std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& target) {
   const auto is_width = [](const ModelSide& side) {
     return side.roughness == Convention::kAlpha || side.roughness == Convention::kRoughness;
@@ -67,14 +67,15 @@ std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target
   const bool from_exponent = source.roughness == Convention::kExponent,
              to_exponent = target.roughness == Convention::kExponent;
   add("copy", "alpha and specular unchanged (MDL distiller, MaterialX)", "", copied);
-  // Mitsuba and Cycles use this formula of Walter et al. (2007), section 5.2. Canonical coordinates use the
-  // same formula, so it copies alpha.
+  // Mitsuba and Cycles use this formula of Walter et al. (2007), section 5.2. remap converts exponents to
+  // alpha by the same formula, so this baseline copies alpha.
   add("exponent", "n = 2 / alpha^2 - 2 (Walter et al. 2007)",
       from_exponent != to_exponent ? ""
       : from_exponent              ? "both models have an exponent"
                                    : "neither model has an exponent",
       copied);
-  // This confuses alpha and sqrt(alpha): it copies the parameter value although the conventions differ.
+  // This baseline copies the value of the parameter although the models have different conventions. It
+  // confuses alpha and sqrt(alpha).
   add("copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)",
       why_number_is_not_copied(source, target),
       [from = source.roughness, to = target.roughness](double alpha, double specular) {

@@ -13,16 +13,18 @@ namespace remap {
 namespace {
 
 constexpr int kIterations = 12;
-// This limits the terms of a fitted factor. More would overfit the lights that choose the form.
+// This limits the terms of a factor. With more terms, a form would overfit the lights that choose it.
 constexpr std::size_t kMostTerms = 5;
-constexpr FormShape kUnitShape{2, 3};  // follows rows as closely as pictures show
-constexpr double kNear = 1.01;         // largest ratio to the best error
-constexpr double kNearRmse = 0.05;     // difference in percent of the display's range
-constexpr double kNearRow = 0.01;      // difference of relative errors
-// Copied numbers are judged by this relative difference, the least that people see (Weber's fraction).
+constexpr FormShape kUnitShape{2, 3};  // follows rows so closely that pictures show no difference
+constexpr double kNear = 1.01;         // an error up to this ratio to the best error is close enough
+constexpr double kNearRmse = 0.05;     // or up to this difference, in percent of the display's range
+constexpr double kNearRow = 0.01;      // or, for rows, up to this difference of relative errors
+// Copied numbers are close enough up to this relative difference, the smallest that people see (Weber's
+// fraction).
 constexpr double kNearCopy = 0.02;
-// These weigh the squared relative errors of rows in the refinement. Where pictures show a difference, rows
-// only have to stop a drift, so their weight is low. Highlights narrower than a pixel need a high weight.
+// These are the weights of rows in the refinement, for squared relative errors. Pictures show the errors of
+// most rows, so rows only have to prevent a drift, and their weight is low. Pictures do not show highlights
+// narrower than a pixel, so such rows have a high weight.
 constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
 constexpr std::size_t kMostRows = 60;  // largest number of narrow rows, and of other rows
@@ -51,7 +53,8 @@ struct WeightedSample {
   double weight = 0.0;
 };
 
-// Returns some of the rows below the limits. Weights are proportional to `pictures`, the number of pictures.
+// Returns some of the rows below the limits, with weights proportional to the number of pictures
+// (`pictures`).
 std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
   std::vector<WeightedSample> all;
   for (const bool is_narrow : {true, false}) {
@@ -68,8 +71,8 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
   return all;
 }
 
-// Refines each of the `starts` by pictures and rows, and returns the best result. `unit` holds both errors of
-// rows.
+// Refines each of `starts` by pictures and rows, and returns the best result. `unit` has the errors of rows
+// by which errors are divided.
 CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain,
                     const PairPictures& pictures, const PictureErrors& unit,
                     const std::vector<FormSample>& samples) {
@@ -88,7 +91,7 @@ CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain
   return refined_form(starts, domain, sources, errors, kIterations);
 }
 
-// Rounds to five digits, which are far more precise than pictures show, so that people can read the headers.
+// Rounds to five digits, so that people can read the headers. Pictures show much less.
 CompactForm rounded_form(CompactForm form) {
   const auto round = [](float& number) {
     number = static_cast<float>(rounded(static_cast<double>(number), 5));
@@ -137,7 +140,7 @@ CandidateRecord record_of(const std::string& name, const RowSplit& split, const 
 
 bool may_be_chosen(const Candidate& candidate) { return candidate.record.verdict.empty(); }
 
-// Runs `work`. Returns `what: why` if it throws, otherwise an empty text. Passes an interruption on.
+// Runs `work`. If it throws, returns `what: why`, otherwise an empty text. Interruptions are not caught.
 template <typename Work>
 std::string failure_of(const std::string& what, const Work& work) {
   try {
@@ -161,7 +164,8 @@ std::size_t choose(std::vector<Candidate>& candidates) {
     alpha = std::min(alpha, record.relative_alpha);
     specular = std::min(specular, record.relative_specular);
   }
-  // Returns a candidate's distance to the best, in units of what pictures show. At most 1 is close enough.
+  // Returns how far a candidate is from the best, in units of what pictures show. A candidate is close enough
+  // if the result is at most 1.
   const auto distance = [&](const CandidateRecord& record) {
     if (record.pictures)
       return std::max(record.pictures->rmse / std::max(kNear * best.rmse, best.rmse + kNearRmse),

@@ -1,4 +1,5 @@
-// This file compares fits of one table. It chooses the fit with the fewest numbers that looks like the best.
+// This file compares fits of one table. It chooses the fit with the fewest numbers among those that look like
+// the best.
 #pragma once
 
 #include <vector>
@@ -16,13 +17,13 @@ struct FittedTable {
 };
 
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
-// without its mapping. If `pictures` is not null and knows the pair, pictures then refine the forms.
-// Otherwise only rows are used.
+// without its mapping. If `pictures` is not null and has the pair of models, pictures then refine the forms.
+// Otherwise, only rows are used.
 //
-// Of the sound candidates, it chooses the one with the fewest numbers whose judged errors are close to the
-// best. With pictures both errors must be within 1 % (the RMSE also within .05 points, an eighth of an 8-bit
-// step). Without pictures both relative errors on the held-out rows must be within .01, which pictures do not
-// show, or within 1 %. Throws kNumeric with the reasons if no candidate is sound.
+// Among the sound candidates whose errors are close to the best, chooses the one with the fewest numbers.
+// With pictures, both errors must be within 1 % of the best (or the RMSE within .05 points, which is an
+// eighth of an 8-bit step). Without pictures, both relative errors on the held-out rows must be within 1 %,
+// or within .01, which pictures do not show. Throws kNumeric with the reasons if no candidate is sound.
 FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
                           const FitProgress& progress);
 

@@ -32,11 +32,11 @@ void require_models(const Table& table) {
   }
 }
 
-// Below this fraction of the largest specular, which nobody sees, learned fits make the output proportional
+// Nobody sees specular below this fraction of the largest. There, learned fits make the output proportional
 // to the input.
 constexpr double kLeastShare = 0.02;
 
-// Parses the pairs of numbers of kSpheresComment and skips invalid ones.
+// Parses the pairs of numbers in kSpheresComment, and skips invalid pairs.
 std::vector<SphereSimilarity> spheres_of(const Table& table) {
   std::vector<SphereSimilarity> spheres;
   for (const auto& [key, value] : table.comments) {
@@ -52,7 +52,7 @@ std::vector<SphereSimilarity> spheres_of(const Table& table) {
   return spheres;
 }
 
-// Returns the similarity of the pictures at the best parameters over `rows`, if the table states it.
+// Returns the similarity of pictures at the best parameters, for `rows`, if the table has it.
 std::optional<ImageSimilarity> image_similarity(const Table& table, const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
@@ -87,7 +87,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   fit.limits = table.limits;
-  // Similar pictures are not enough for an inverse: it must return the source's parameters.
+  // If the fit is an inverse, similar pictures do not suffice. It must return the parameters of the source.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);

@@ -1,4 +1,5 @@
-// This file fits a table: split of the rows, regression, errors on the held-out rows, provenance.
+// This file fits a table. It splits the rows, fits them, computes errors on the held-out rows, and records
+// how the fit was made.
 #pragma once
 
 #include <cstdint>

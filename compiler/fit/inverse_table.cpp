@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kProbes = 400;  // alphas at which the largest specular is computed
 
-// Returns the largest target specular that the fit reaches at every alpha. The inverse covers a box up to it.
+// Returns the largest target specular that the fit reaches at every alpha. This is where the inverse ends.
 double reached_specular(const Fit& fit) {
   double least = std::numeric_limits<double>::infinity();
   const Range& alphas = fit.domain.alpha;

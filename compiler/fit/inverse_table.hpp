@@ -1,4 +1,4 @@
-// This file builds the table of the inverse of a fit, which can be fitted like any other table.
+// This file makes the table of the inverse of a fit. It can be fitted like any other table.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// This file lists the kinds of fits. Each kind is a folder, with its regression in one line of the list.
+// This file lists the kinds of fits. Each kind has a folder with its regression, and one line in the list.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ struct FitOptions {
   bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
 };
 
-// A FitKind is a regression that a user can name. It fits the rows below the limits of the target. If the
-// user names no kind, forms are compared (comparison.hpp).
+// A FitKind is a regression that a user can choose. It fits the rows below the limits of the target. If the
+// user chooses none, forms are compared (comparison.hpp).
 struct FitKind {
   std::string_view name;
-  // Fits the rows. Curves must be sound in `domain`. Throws the errors of the regression.
+  // Fits the rows. The curves must be sound in `domain`. Throws the errors of the regression.
   Regression (*fit)(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
                     const FitProgress& progress);
 };

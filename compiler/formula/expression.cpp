@@ -6,7 +6,7 @@
 namespace remap {
 namespace {
 
-// Returns how strongly an operation binds, to know where parentheses are needed.
+// Returns how strongly an operation binds, which decides where parentheses are needed.
 int rank_of(const Expression& expression) {
   switch (expression.op) {
     case Op::kAdd:

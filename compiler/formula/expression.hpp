@@ -1,5 +1,5 @@
-// This file holds formulas as statements that can be written in every language. Formulas of converters come
-// from emit/converter_formula.hpp. Formulas of whole materials come from materials/description.hpp.
+// This file holds formulas as statements, which can be written in every language. emit/converter_formula.hpp
+// makes the formulas of converters, materials/description.hpp those of whole materials.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace remap {
 enum class Op { kNumber, kName, kAdd, kSubtract, kMultiply, kDivide, kCall };
 
 // An Expression is a number, a name, an operation on two terms, or a call of the function `name`. Converters
-// call min and max of two terms, sqrt, and largest (the largest channel of a color).
+// call min and max of two terms, sqrt, and largest, which is the largest channel of a color.
 struct Expression {
   Op op = Op::kNumber;
   float number = 0.0f;
@@ -47,7 +47,7 @@ struct Notation {
   std::string (*number)(float) = nullptr;
   // Returns the text of a call from the texts of its terms.
   std::function<std::string(const std::string& function, const std::vector<std::string>& terms)> call;
-  std::string channel = {};  // follows the names of colors; for example `[c]`
+  std::string channel = {};  // what follows the name of a color, such as `[c]`
 };
 // Returns a Notation::call that fills patterns: `$1` is the first term. If a function has no pattern, or its
 // pattern has no `$`, the call is written as `name(terms)`.

@@ -33,7 +33,7 @@ void GraphWriter::write(const Statement& statement) {
     locals_[statement.name] = std::move(term);
     return;
   }
-  // An output of a graph must refer to a node, so a bare value or input gets one.
+  // An output of a graph must refer to a node. So a constant or an input gets a node.
   if (!term.attribute.starts_with("nodename")) {
     const bool is_value = term.attribute.starts_with("value");
     term = node(is_value ? "constant" : "dot", term.type, {{is_value ? "value" : "in", term}}, name);
@@ -48,7 +48,7 @@ GraphWriter::Term GraphWriter::term_of(const Expression& expression, const std::
       return {ValueType::kNumber, "value=\"" + number_text(decimal_value(expression.number)) + "\""};
     case Op::kName:
       if (const auto input = inputs_.find(expression.name); input != inputs_.end()) {
-        // Only NAME of `source.NAME` is the name in the graph.
+        // In `source.NAME`, only NAME is the name in the graph.
         const std::string plain = expression.name.substr(expression.name.rfind('.') + 1);
         return {input->second, "interfacename=\"" + plain + "\""};
       }

@@ -13,7 +13,7 @@ namespace remap {
 // Returns the name of the type in MaterialX, such as `color3`.
 std::string material_x_type(ValueType type);
 
-// A GraphFunction is a function as a node definition with its graph, for terms of certain types.
+// A GraphFunction is a function as a node definition with its graph. Its terms have certain types.
 struct GraphFunction {
   ValueType type = ValueType::kNumber;
   std::string text;

@@ -11,8 +11,8 @@ namespace remap {
 namespace {
 
 constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
-// This comes before a loop whose output rows are also its input rows, or do not overlap any other row.
-// Compilers then omit the check for overlap.
+// This comes before a loop whose output rows either are its input rows, or overlap no other row. Compilers
+// then omit the check for overlap.
 constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma clang loop vectorize(assume_safety)
 #elif defined(__GNUC__)
@@ -21,7 +21,7 @@ constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
 #pragma loop(ivdep)
 #endif)";
 
-// Returns `text` with `indentation` at the start of each further line. Empty lines stay empty.
+// Returns `text` with `indentation` at the start of every line except the first. Empty lines stay empty.
 std::string indented(std::string_view text, const std::string& indentation) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -31,7 +31,8 @@ std::string indented(std::string_view text, const std::string& indentation) {
   return result;
 }
 
-// Fills the holes of one line. If a value has several lines, all get the indentation of this line.
+// Fills the placeholders of one line. If a value has several lines, all of them get the indentation of this
+// line.
 std::string fill_line(std::string_view line, const std::map<std::string, std::string>& values,
                       std::set<std::string>* used) {
   const std::string indentation(line.substr(0, line.find_first_not_of(' ')));

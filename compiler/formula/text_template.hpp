@@ -1,4 +1,4 @@
-// This file writes every piece of generated code: templates, literals, lists and tables.
+// This file writes the pieces of generated code: templates, literals, lists and tables.
 #pragma once
 
 #include <initializer_list>
@@ -9,20 +9,21 @@
 
 namespace remap {
 
-// Returns `text` with every `@name@` replaced by its value, and REMAP_INDEPENDENT_LOOP by the pragmas of a
-// loop with independent iterations. If a hole is the only text on its line, each line of its value gets the
-// indentation of the line. Such a hole vanishes with its line if the value is empty. Throws std::logic_error
-// for a hole without value and for a value without hole: a template that does not fit its caller is a bug.
+// Returns `text` with every placeholder `@name@` replaced by its value, and REMAP_INDEPENDENT_LOOP by the
+// pragmas of a loop with independent iterations. If a placeholder is the only text on its line, each line of
+// its value gets the indentation of the line. If the value is empty, the line is removed. Throws
+// std::logic_error for a placeholder without a value and for a value without a placeholder, because such a
+// template is a bug.
 std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values);
 
-// Returns the file NAME.in of compiler/emit/templates or NAME.inc of a folder `code`, unchanged. Throws
+// Returns the file NAME.in of compiler/emit/templates, or NAME.inc of a folder `code`, unchanged. Throws
 // std::logic_error for an unknown name.
 std::string_view code_file(std::string_view name);
 
-// Returns files without holes one after another, each after an empty line.
+// Returns files without placeholders one after another, each after an empty line.
 std::string code_files(std::initializer_list<std::string_view> names);
 
-// Returns the texts of the elements of `list`, with `between` between two of them.
+// Returns the texts of the elements of `list`, separated by `between`.
 template <typename List, typename Text>
 std::string joined(const List& list, std::string_view between, const Text& text_of) {
   std::string text;
@@ -33,8 +34,8 @@ std::string joined(const List& list, std::string_view between, const Text& text_
 // Returns ASCII letters as capitals, for include guards.
 std::string upper_case(std::string text);
 
-// Return the shortest literals that read back: for the float closest to `value`, and for the double. Throw
-// kNumeric if they would not be finite.
+// Return the shortest literals that read back as the same number: for the float closest to `value`, and for
+// the double. Throw kNumeric if a literal would not be finite.
 std::string literal(double value);
 std::string double_literal(double value);
 

@@ -12,7 +12,7 @@ namespace remap {
 namespace {
 
 constexpr double kPointDistance = 3.0;
-constexpr int kPointSamples = 8;  // per axis of a pixel: highlights are narrower than pixels
+constexpr int kPointSamples = 8;  // along each side of a pixel, because highlights are narrower than pixels
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// This file renders the lobe of one model under many lights. Pictures of every material with that lobe follow
-// from these, because a picture is linear in diffuse reflectance and specular, and smooth in alpha.
+// This file renders the lobe of one model under many lights. A picture is linear in diffuse reflectance and
+// specular, and smooth in alpha. So these pictures give the picture of every material with this lobe.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace remap {
 
-// A StudyLights holds environments, and after them point lights. Under a point light, the closest point of a
-// white diffuse sphere that faces the light has radiance 1. The angles to the camera are in degrees.
+// A StudyLights holds environments, and after these point lights. Under a point light, a white diffuse sphere
+// has radiance 1 at its closest point, if this faces the light. Angles are in degrees from the camera.
 class StudyLights {
  public:
   StudyLights(std::vector<Environment> environments, const SphereSampling& sampling,
@@ -47,15 +47,15 @@ class LobePictures {
   LobePictures(const StudyLights& lights, const std::string& model, std::vector<double> alphas);
 
   const std::vector<double>& alphas() const { return alphas_; }
-  // Adds the lobe to a picture, linear RGB of pixels(). Alpha is clamped to alphas(), and interpolated
-  // between them in its logarithm. With `is_constant` the reflectance of the lobe is specular in every
-  // direction, otherwise it is the model's own.
+  // Adds the lobe to a picture, which is linear RGB of pixels(). Alpha is clamped to alphas(), and
+  // interpolated between them by its logarithm. With `is_constant`, the reflectance of the lobe is specular
+  // in every direction. Otherwise, it is that of the model.
   void add(std::size_t light, double alpha, const Rgb& specular, bool is_constant,
            std::vector<float>& radiance) const;
 
  private:
   std::vector<double> alphas_;
-  // The order is [alpha][light]. They hold the picture at specular 0, and what specular 1 adds.
+  // The indices are [alpha][light]. `dark_` is the picture at specular 0, and `slope_` what specular 1 adds.
   std::vector<std::vector<std::vector<float>>> dark_, slope_;
 };
 

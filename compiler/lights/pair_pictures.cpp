@@ -25,7 +25,7 @@ constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpecula
 constexpr double kPointWeight = 0.5;
 constexpr double kWidthStep = 0.04;  // relative step of difference quotients
 
-// Turns an environment about the vertical axis by a fraction of a circle.
+// Turns an environment about the vertical axis, by this fraction of a circle.
 Environment turned(const Environment& environment, double share) {
   Environment result = environment;
   const Image& map = environment.map;
@@ -39,7 +39,7 @@ Environment turned(const Environment& environment, double share) {
   return result;
 }
 
-// A Half holds pictures of all requested models under the lights of one half.
+// A Half holds pictures of all models that were requested, under half of the lights.
 class Half {
  public:
   Half(std::vector<Environment> environments, const std::vector<double>& angles, unsigned jobs)
@@ -52,7 +52,7 @@ class Half {
     if (!pictures) pictures = std::make_unique<LobePictures>(lights_, model, widths_of(model));
     return *pictures;
   }
-  // Returns widths in equal ratios, within the range of the model.
+  // Returns widths with equal ratios, within the range of the model.
   static std::vector<double> widths_of(const std::string& model) {
     static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
     const Range range = renderer->model(model).alpha;
@@ -88,8 +88,8 @@ Halves& halves(unsigned jobs) {
 
 using Picture = std::vector<float>;
 
-// A MaterialPictures shows a material of the source under each light: display values under environments,
-// linear values under points.
+// A MaterialPictures shows a material of the source under each light. Pictures have display values under
+// environments, and linear values under point lights.
 struct MaterialPictures {
   MappedTexel source;
   std::vector<Picture> pictures;
@@ -117,7 +117,7 @@ class Judge {
 
   const std::vector<MaterialPictures>& shown() const { return shown_; }
 
-  // Returns the error under a light, in percent or relative. It adds the slopes to `sum` if this is not null.
+  // Returns the error under a light, in percent or relative. If `sum` is not null, adds the slopes to it.
   double error_under(std::size_t light, const MaterialPictures& shown, const MappedTexel& texel, double unit,
                      TexelError* sum) const {
     const bool is_environment = light < lights_.environment_count();
@@ -144,8 +144,8 @@ class Judge {
       both += a * s;
       specular_2 += s * s;
     }
-    // The error is the square root of a mean of squares. Its derivative is the derivative of the mean over
-    // twice the error.
+    // The error is the square root of a mean of squares. So its derivative is the derivative of the mean,
+    // divided by twice the error.
     const double count =
         is_environment ? static_cast<double>(here.size()) / 1e4 : std::max(shown.power[light], 1e-12);
     const double error = std::sqrt(square / count);
@@ -175,7 +175,7 @@ class Judge {
   std::vector<MaterialPictures> shown_;
 };
 
-// Makes the materials of one half. They have every other width, with the speculars of this half.
+// Makes the materials of one half. They have every other width, and the speculars of this half.
 template <typename Speculars>
 std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
                                    const Speculars& speculars) {

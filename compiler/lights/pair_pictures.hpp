@@ -1,5 +1,6 @@
-// This file renders two models of the built-in renderer under lights that the project makes. Some lights
-// choose the numbers of a converter, the others judge it. Materials are highlights without diffuse light.
+// This file renders two built-in models under lights that remap makes itself. Pictures under some of the
+// lights choose the numbers of a converter, and pictures under the others judge it. Materials are highlights
+// without diffuse light.
 #pragma once
 
 #include <memory>
@@ -19,18 +20,18 @@ class PairPictures {
   virtual ~PairPictures() = default;
   // Returns the materials whose pictures choose the numbers of a converter.
   virtual const std::vector<MappedTexel>& sources() const = 0;
-  // Returns the errors of target texels' pictures: the RMSE of display values under environments, and the
-  // error relative to the source under point lights. Each error is divided by its value in `unit`, so that
-  // one per cent has the same weight in both.
+  // Returns the errors of pictures of target texels. These are the RMSE of display values under environments,
+  // and the error relative to the source under point lights. Each error is divided by its value in `unit`, so
+  // that one per cent has the same weight in both.
   virtual TexelErrors choosing_errors(const PictureErrors& unit) const = 0;
-  // Returns mean errors over the lights and materials that choose.
+  // Returns mean errors for the lights and materials that choose.
   virtual PictureErrors chosen(const TexelMap& map) const = 0;
-  // Returns mean errors over the lights and materials that judge.
+  // Returns mean errors for the lights and materials that judge.
   virtual PictureErrors judged(const TexelMap& map) const = 0;
 };
 
-// Returns null if the built-in renderer lacks one of the models. Takes seconds. Pictures of a model are kept
-// for the next pair. Thread-safe.
+// Returns null if the built-in renderer lacks one of the models. Takes seconds. The pictures of a model are
+// kept for other pairs. Thread-safe.
 std::unique_ptr<PairPictures> pair_pictures(const std::string& source, const std::string& target,
                                             const Domain& domain, unsigned jobs);
 

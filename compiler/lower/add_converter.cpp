@@ -8,7 +8,8 @@
 namespace remap {
 namespace {
 
-// Returns four units in the last place of a float, the rounding of conversions and of a texel's scale.
+// Returns four units in the last place of a float. This covers the rounding of conversions and of a texel's
+// scale.
 double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
 
 // Returns how much the target's own parameter changes if alpha changes by `error`.
@@ -45,7 +46,7 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
     const double in = static_cast<double>(s);
     double out = 0.0;
     const double width = evaluate_texel(fit, static_cast<double>(r), {&in, 1}, {&out, 1});
-    // beyond the edge, the factors at the edge are used
+    // beyond the edge, factors are constant
     const double scale = std::max(1.0, in / specular.max);
     texels.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
                       bound(own_error(fit.target.roughness, width, alpha_error)),

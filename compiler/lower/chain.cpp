@@ -15,10 +15,10 @@
 namespace remap {
 namespace {
 
-constexpr int kAlphas = 401, kSpeculars = 64;  // sizes of the grid on which the domain is found
-constexpr int kCoarse = 25;         // numbers of alphas and speculars at which errors are propagated
-constexpr double kSameEdge = 1e-9;  // relative tolerance for the edge of a domain
-// A form is close enough to its steps within these distances, which pictures do not show.
+constexpr int kAlphas = 401, kSpeculars = 64;  // size of the grid that finds the domain
+constexpr int kCoarse = 25;                    // size of the grid on which errors are propagated
+constexpr double kSameEdge = 1e-9;             // relative tolerance for the edge of a domain
+// A form may differ from its steps by this much, which pictures do not show.
 constexpr double kNearAlpha = 2e-3, kNearSpecular = 4e-3;
 
 double at(const Range& range, int i, int count) {
@@ -48,7 +48,7 @@ void require_links(const std::vector<Fit>& steps) {
   }
 }
 
-// Returns the inputs of every step, then the outputs of the last.
+// Returns the inputs of every step, and after these the outputs of the last step.
 std::vector<MappedTexel> states(const std::vector<Fit>& steps, MappedTexel texel) {
   std::vector<MappedTexel> passed = {texel};
   for (const Fit& step : steps) {
@@ -62,8 +62,8 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// Returns the first step whose domain a texel leaves, or the step after a step whose target is at its limit.
-// Returns steps.size() if neither happens. The domain rule handles specular below 0.
+// Returns the first step whose domain a texel leaves. If the target of a step is at its limit, returns the
+// next step. Otherwise returns steps.size(). The domain rule handles specular below 0.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)
@@ -123,8 +123,8 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
   return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
 }
 
-// A CarriedErrors propagates error figures of all steps to the end of the chain. Squares of rms are summed
-// and averaged over the domain. The other figures are summed, and their maximum over the domain is used.
+// A CarriedErrors propagates the errors of all steps to the end of the chain. Rms errors are added as squares
+// and averaged over the domain. Other errors are added, and the maximum over the domain is used.
 struct CarriedErrors {
   double square = 0.0;
   ErrorFigures figures;

@@ -8,18 +8,18 @@
 
 namespace remap {
 
-// A ChainDifference holds the largest sampled differences over the chain's domain between a chain and its
-// steps, each with its own domain rule. Colored texels differ more if alpha depends on specular. A step then
-// uses the largest channel of its input, but the chain uses the source's largest channel.
+// A ChainDifference holds the largest differences between a chain and its steps, sampled over the chain's
+// domain. The steps use their own domain rules. Colored texels differ more if alpha depends on specular,
+// because a step then uses the largest channel of its input, but the chain the largest channel of the source.
 struct ChainDifference {
   double alpha = 0.0;
   double grey_specular = 0.0;
   double color_specular = 0.0;
 };
 
-// Returns a fit of kind `compact` that gives the results of `steps` in sequence. An empty `id` becomes
-// `<source>_to_<target>`. In its domain every step stays in its own domain. Its error figures are the steps'
-// figures, propagated to the end to first order. Its image error is their sum, because errors of matching are
+// Returns a fit of kind `compact` that gives the results of `steps` one after another. If `id` is empty, it
+// is `<source>_to_<target>`. In its domain, every step stays in its own domain. Its errors are those of all
+// steps, propagated to the end to first order. Its image error is the sum, because errors of matching are
 // systematic. Throws kUsage for fewer than 2 steps, a cycle or an invalid id. Throws kInput if the parameters
 // of two neighbouring steps differ, or if their domains do not overlap.
 Fit compose(const std::vector<Fit>& steps, const std::string& id = "");

@@ -1,4 +1,5 @@
-// This file finds the domain of a fit: a box within the (ragged) covered region of (alpha, specular).
+// This file finds the domain of a fit. The region of (alpha, specular) that a table covers may have any
+// shape, and the domain is a box inside of it.
 #pragma once
 
 #include <cmath>
@@ -13,13 +14,13 @@ namespace remap {
 struct CoveredColumn {
   double first = 0.0, last = 0.0;
   double reach = 0.0;   // 0 if the column is not covered
-  bool is_gap = false;  // has no data; the box may span it
+  bool is_gap = false;  // true if there is no data, so a box may contain this column
 };
 
-// Returns the best box within columns in rising order, or nothing if no column is covered. Outside a domain,
-// specular is extrapolated in proportion, with errors of a few tenths of a percent between models that scale.
-// Alpha is clamped, which is wrong. So the wider alpha range wins unless specular shrinks by more than the
-// fourth power of the gain.
+// Returns the best box within columns in rising order, or nothing if no column is covered. Outside of a
+// domain, specular is extrapolated in proportion, which costs only a few tenths of a percent. Alpha is
+// clamped, which is wrong. So a box with a wider range of alpha wins, unless its range of specular shrinks by
+// more than the fourth power of what alpha gains.
 std::optional<Domain> covered_box(const std::vector<CoveredColumn>& columns);
 
 }  // namespace remap

@@ -1,6 +1,6 @@
-// This file holds the formula of each kind of mapping over any scalar. Doubles serve the interpreter, Taylor
-// models the proofs (lower/taylor.hpp), so that proofs hold for the interpreted formula. A scalar needs +, -,
-// * with itself and with double, and the functions that are declared for double below.
+// This file holds the formula of each kind of mapping, for any type of scalar. The interpreter uses doubles,
+// and proofs use Taylor models (lower/taylor.hpp). So a proof holds for the formula that is interpreted. A
+// scalar needs +, -, * with itself and with double, and the functions that are declared for double below.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,7 @@ Scalar curve_value(const AlphaCurve& curve, const Scalar& alpha) {
   return value;
 }
 
-// Returns the inputs of a regressor with `count` inputs: only alpha, or both.
+// Returns the inputs of a regression with `count` inputs: alpha, or alpha and specular.
 template <typename Scalar>
 std::vector<Scalar> inputs_of(std::size_t count, const Scalar& alpha, const Scalar& specular) {
   if (count == 1) return {alpha};
@@ -51,7 +51,7 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
-// Returns t of the form.
+// Returns the variable t of the form.
 template <typename Scalar>
 Scalar share_of_pole(double pole, const Scalar& specular) {
   return reciprocal(specular + pole) * -pole + 1.0;

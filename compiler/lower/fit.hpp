@@ -1,5 +1,6 @@
-// This file holds a fit: the mapping from the parameters of one BRDF model to the parameters of another, as
-// it was found, and the converter that it was lowered to. remapc writes it as JSON (fit_file.hpp).
+// This file holds a fit. It is the mapping from the parameters of one BRDF model to the parameters of
+// another, as it was found, and the converter that was made from it. remapc writes fits as JSON
+// (fit_file.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 
 namespace remap {
 
-// A Domain is the range of the table's data. Beyond its edges, the factors between source and target
-// parameters keep their values at the edge. Only widths above it are clamped.
+// A Domain is the range of the table's data. Beyond its edges, target and source have the ratio that they
+// have at the edge. Only widths above the domain are clamped.
 struct Domain {
   Range alpha;     // range of the source's alpha
   Range specular;  // range of the source's specular in any channel, linear
@@ -25,12 +26,12 @@ struct Domain {
 // A Limits holds the largest alpha and specular that a target model accepts.
 struct Limits {
   double alpha = 1.0;
-  std::optional<double> specular;  // none: unknown
+  std::optional<double> specular;  // not set if the limit is unknown
   bool operator==(const Limits&) const = default;
 };
 
 // A PictureErrors states how much pictures differ from the source's pictures, either with converted or with
-// copied numbers. The fit did not use these materials and lights (compiler/lights/pair_pictures.hpp).
+// copied numbers. Materials and lights are others than those of the fit (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // RMSE of display values under environments, in percent of the display's range
   double relative = 0.0;  // error of linear radiance under a point light, relative to the RMS of the source
@@ -49,7 +50,7 @@ struct ErrorFigures {
   bool operator==(const ErrorFigures&) const = default;
 };
 
-// A Split counts the table's rows that trained, that were held out, and that were not used.
+// A Split counts the table's rows: used for training, held out, and not used.
 struct Split {
   std::uint64_t seed = 0;
   double held_out_fraction = 0.0;
@@ -61,23 +62,23 @@ struct Split {
 
 // A TableRecord describes the table that was fitted.
 struct TableRecord {
-  std::string name;                             // name of the file, without folder
-  std::string sha256;                           // hash of its bytes
-  std::map<std::string, std::string> comments;  // `# key: value`: the options of the sweep
+  std::string name;                             // name of the file, without its folder
+  std::string sha256;                           // SHA-256 of its bytes
+  std::map<std::string, std::string> comments;  // `# key: value`, which are the options of the sweep
   bool operator==(const TableRecord&) const = default;
 };
 
 // A CandidateRecord is one row of the comparison by which `--model auto` decided
 // (compiler/fit/comparison.hpp).
 struct CandidateRecord {
-  std::string name;              // the kind and its shape
-  std::size_t number_count = 0;  // number of coefficients: the complexity
+  std::string name;              // kind and shape of the candidate
+  std::size_t number_count = 0;  // number of coefficients, which measures complexity
   ErrorFigures alpha, specular;  // errors on the held-out rows
-  // These are root mean squares on the held-out rows, relative to the value, or to a fiftieth of 1 if that is
-  // larger.
+  // These are root mean squares on the held-out rows, relative to the value. Values below a fiftieth are
+  // treated as a fiftieth.
   double relative_alpha = 0.0, relative_specular = 0.0;
-  std::optional<PictureErrors> pictures;  // none if a renderer does not take part
-  std::string verdict;                    // `chosen`, or the reason against it
+  std::optional<PictureErrors> pictures;  // none if remap cannot render one of the models
+  std::string verdict;                    // `chosen`, or why not
   bool operator==(const CandidateRecord&) const = default;
 };
 
@@ -89,9 +90,9 @@ struct SphereSimilarity {
   bool operator==(const SphereSimilarity&) const = default;
 };
 
-// An ImageSimilarity states how well the two models can match, by the table's rows in the domain.
+// An ImageSimilarity states how well the two models can match, from the rows of the table in the domain.
 struct ImageSimilarity {
-  ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
+  ErrorFigures image_error;  // difference of pictures relative to the source's, with the weights of the match
   std::vector<SphereSimilarity> ssim;  // sorted by alpha; empty if no spheres were compared
   bool operator==(const ImageSimilarity&) const = default;
 };
@@ -103,13 +104,13 @@ struct Fit {
   Domain domain;
   MappingKind mapping;
   Limits limits;                                    // limits of the target
-  std::map<std::string, std::string> method;        // facts: hyper-parameters, search, starts
-  std::vector<CandidateRecord> candidates;          // from `auto`; otherwise empty
+  std::map<std::string, std::string> method;        // how it was found: hyper-parameters, search, starts
+  std::vector<CandidateRecord> candidates;          // only with --model auto
   ErrorFigures alpha_error;                         // error of the target's alpha
   ErrorFigures specular_error;                      // error of the target's specular
-  std::optional<ImageSimilarity> image_similarity;  // empty for published formulas
-  std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks a model
-  std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
+  std::optional<ImageSimilarity> image_similarity;  // empty for formulas from publications
+  std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks one of the models
+  std::vector<std::string> remarks;  // lines of the model card: sources, errata, limits of the pair
   Split split;
   TableRecord table;
   std::string tool_version;
@@ -117,8 +118,8 @@ struct Fit {
   std::optional<ConverterData> converter;
   // Returns true if the errors are known. Formulas from publications were not compared with rows.
   bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
-  // Returns true if the distances to rows are errors. Rows are matched under one light, so a form that
-  // pictures under many lights chose need not follow them.
+  // Returns true if distances to rows are errors of the fit. Rows are matched under one light. A form that
+  // was chosen by pictures under many lights need not follow the rows.
   bool follows_rows() const { return has_errors() && !pictures; }
   bool operator==(const Fit&) const = default;
 };

@@ -26,12 +26,12 @@ Fit fit_from_json(std::string_view json, const std::string& context);
 // Reads a fit of alpha and specular from a file. Throws kInput if it cannot be read.
 Fit load_fit(const std::filesystem::path& path);
 
-// These functions do the same for fits of all types.
+// These functions read and write fits of all types. They throw the same errors.
 AnyFit any_fit_from_json(std::string_view json, const std::string& context);
 AnyFit load_any_fit(const std::filesystem::path& path);
 
-// Returns the fit if it is one of alpha and specular. Throws an error of `kind`, which begins with `context`,
-// for a fit of whole materials.
+// Returns the fit if it maps alpha and specular. For a fit of whole materials, throws an error of `kind` that
+// begins with `context`.
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context);
 
 }  // namespace remap

@@ -233,8 +233,8 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
                          })};
 }
 
-// Refuses a converter that was made from another fit. Its ends then differ, or its golden texels contradict
-// the mapping.
+// Refuses a converter that was made from another fit. Either its models differ, or its golden texels
+// contradict the mapping.
 void require_own_converter(const Fit& fit, const Field& root) {
   const ConverterInfo& info = fit.converter->info;
   const auto is_near = [](double value, float golden, float within) {
@@ -281,7 +281,7 @@ std::string fit_to_json(const Fit& fit) {
       {"tool", "remapc " + fit.tool_version},
   };
   std::string text = json.dump(2);
-  text.resize(text.size() - 2);  // drop the newline and the brace at its end
+  text.resize(text.size() - 2);  // drop the newline and the last brace
   return text + ",\n  \"converter\": " + (fit.converter ? converter_to_json(*fit.converter) : "null") +
          "\n}\n";
 }
@@ -289,8 +289,8 @@ std::string fit_to_json(const Fit& fit) {
 Fit read_fit(const Field& root) {
   Fit fit;
   fit.id = read_id(root["id"]);
-  // The converter is read first, because files without a converter are old and lack other fields, too. The
-  // message should be about the converter.
+  // Read the converter first. Files without a converter are old and lack other fields, too, but the message
+  // must be about the converter.
   fit.converter = read_fitted_converter(root);
   fit.source = read_side(root["source"]);
   fit.target = read_side(root["target"]);

@@ -15,16 +15,16 @@ namespace remap {
 namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
-constexpr float kMostBend = 4.0f;  // a hinge with a larger bend is a step
+constexpr float kMostBend = 4.0f;  // with a larger bend, a hinge is a step
 constexpr double kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
-constexpr double kLeastFactor = 1e-5;   // a sound form has no smaller factor
-constexpr double kSmallestGain = 2e-5;  // relative gain in the sum of errors
+constexpr double kLeastFactor = 1e-5;   // factors of a sound form are at least this large
+constexpr double kSmallestGain = 2e-5;  // smallest relative gain in the sum of errors that continues a search
 constexpr double kStep = 1e-5;          // smallest change of a number for difference quotients
 constexpr double kRidge = 1e-9;         // relative ridge of normal equations
 
-// Pictures show errors relative to a value, and nothing below `least`.
+// Pictures show errors relative to a value. Errors of values below `least` are not visible.
 constexpr double kLeastShown = 0.02;
 double weight_of(double value, double least = kLeastShown) { return 1.0 / std::max(value, least); }
 
@@ -44,7 +44,8 @@ FactorTerms shaped(const FormShape& shape, const Eigen::VectorXd& numbers) {
   return factor;
 }
 
-// Fits the factor from sources to targets. It uses only the samples for which `counts` returns true.
+// Fits a factor, so that each source times the factor is close to its target. Uses only the samples for which
+// `counts` returns true.
 template <typename Counts, typename Source, typename Target>
 std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples, const FormShape& shape,
                                           double pole, double least_shown, const Counts& counts,
@@ -74,7 +75,7 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   return {shaped(shape, numbers), (matrix * numbers - wanted).squaredNorm()};
 }
 
-// Returns the form of least squares on the samples below the limits. It has no hinge yet.
+// Returns the form with the least squares on the samples below the limits. It has no hinge yet.
 CompactForm least_squares(const std::vector<FormSample>& samples, const Limits& limits,
                           const FormShape& shape, double least_shown) {
   CompactForm best;
@@ -148,7 +149,7 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   std::vector<Eigen::MatrixXd> slopes(sources.size(), Eigen::MatrixXd(2, count));
   for (Eigen::Index k = 0; k < count; ++k) {
     std::vector<double> moved = numbers;
-    // Forms hold floats, so a step must be large enough to change one.
+    // Forms hold floats, so a step must be large enough to change a float.
     const double step = std::max(kStep, std::fabs(numbers[static_cast<std::size_t>(k)]) * 1e-3);
     moved[static_cast<std::size_t>(k)] += step;
     const std::vector<MappedTexel> beyond = targets_of(with_numbers(form, moved), domain, sources);
@@ -168,7 +169,7 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
   return equations;
 }
 
-// Returns the form, and the sum of its errors.
+// Returns the best form that a search from `start` finds, and the sum of its errors.
 std::pair<CompactForm, double> refined_from(const CompactForm& start, const Domain& domain,
                                             const std::vector<MappedTexel>& sources,
                                             const TexelErrors& errors, int iterations) {
@@ -227,7 +228,7 @@ CompactForm refined_by_rows(const std::vector<CompactForm>& starts, const Domain
   return refined_form(starts, domain, sources_of(samples), errors, kRowIterations);
 }
 
-// Returns the form within the shape that follows the samples best, or null if there is none.
+// Returns the best form whose terms lie within the shape, or null if there is none.
 const CompactForm* best_within(const std::vector<CompactForm>& forms, const FormShape& shape,
                                const Domain& domain, const std::vector<FormSample>& samples) {
   const std::vector<MappedTexel> sources = sources_of(samples);
@@ -315,7 +316,8 @@ CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limit
   const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
   const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
   if (!is_limited && is_sound(nearest, domain)) return nearest;
-  // This start weights small values as much as large values. It keeps factors positive if they begin near 0.
+  // In this start, small values have as much weight as large values. It keeps factors positive that begin
+  // close to 0.
   std::vector<CompactForm> starts = {nearest, least_squares(samples, limits, shape, kLeastRelative)};
   if (const CompactForm* smaller = best_within(sound, shape, domain, samples))
     starts.push_back(padded(*smaller, shape));

@@ -12,14 +12,15 @@ namespace {
 
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
 
-// A Rule holds a mapping's factors, and its target's behaviour at limits. A missing limit is infinite.
+// A Rule holds the factors of a mapping, and what the target does at its limits. A missing limit is infinite.
 struct Rule {
   const MappingKind& mapping;
   const Domain& domain;
   double alpha_limit = INFINITY, specular_limit = INFINITY;
   Hinge hinge;
 
-  // Returns the factor for a texel in the domain. A texel with specular 0 lies just outside of it.
+  // Return the factors for a texel in the domain. A specular of 0 is replaced by a tiny value, because the
+  // factor is a quotient.
   double alpha_factor(double alpha, double specular) const {
     return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); }, mapping) / alpha;
   }
@@ -28,7 +29,7 @@ struct Rule {
     return std::visit([&](const auto& kind) { return target_specular(kind, alpha, s); }, mapping) / s;
   }
 
-  // Changes `speculars` in place. They must be finite and at least 0.
+  // Returns the target's alpha and changes `speculars` in place. They must be finite and at least 0.
   double operator()(double alpha, std::span<double> speculars) const {
     const double inside = std::max(alpha, domain.alpha.min);
     const auto factor = [&](double covered) { return std::max(specular_factor(inside, covered), 0.0); };

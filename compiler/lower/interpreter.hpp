@@ -1,5 +1,5 @@
-// This file is the reference interpreter, which evaluates a fit in double precision. Generated headers are
-// tested against it, and fits that cannot be lowered run in it.
+// This file holds the reference interpreter, which evaluates a fit in double precision. Tests compare
+// generated headers with it. Fits without a converter run in it.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ bool is_inside(const Fit& fit, double alpha, double specular);
 
 // Returns both parameters of a texel with one channel, with the domain rule and limits.
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular);
-// Evaluates a form in the same way. A form has its own limits.
+// Evaluates a form like evaluate_fit(). A form has its own limits.
 MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alpha, double specular);
 
 // Converts one texel with the domain rule, in the models' own parameters. `roughness` is the source's width
@@ -32,8 +32,8 @@ MappedTexel form_texel(const CompactForm& form, const Domain& domain, double alp
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 
-// Return the covered ranges of the source's own width parameter and of its specular, rounded to float. So
-// generated headers and the interpreter agree on texels at the edge.
+// Return the covered ranges of the source's own width parameter and of its specular, rounded to float.
+// Generated headers use floats, so both agree on texels at the edge.
 Range own_roughness_range(const Fit& fit);
 Range specular_range(const Fit& fit);
 

@@ -28,7 +28,7 @@ std::optional<double> root(const std::function<double(double)>& rising, const Ra
 constexpr int kReturnedAlphas = 60, kReturnedSpeculars = 20;
 constexpr double kMedianGoal = 0.005, kP99Goal = 0.02;
 
-// Returns the quantile by closest rank.
+// Returns the quantile, by the closest rank.
 double quantile(std::vector<double>* values, double share) {
   if (values->empty()) return 0.0;
   const double last = static_cast<double>(values->size());
@@ -42,7 +42,8 @@ double quantile(std::vector<double>* values, double share) {
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
   const MappingKind& mapping = fit.mapping;
   const Domain& domain = fit.domain;
-  // Returns the specular needed at an alpha, clamped to the domain. The last test rejects clamped values.
+  // Returns the specular that is needed at an alpha, clamped to the domain. The last test below rejects
+  // clamped values.
   const auto specular_at = [&](double alpha) {
     const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
     if (rising(domain.specular.min) >= target.specular) return domain.specular.min;

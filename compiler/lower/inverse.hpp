@@ -1,5 +1,5 @@
-// This file finds source parameters from target parameters: the inverse of a mapping. It also measures how
-// well the converter of the other direction agrees with the inverse.
+// This file finds source parameters from target parameters, which is the inverse of a mapping. It also
+// measures how well the converter of the other direction agrees with this inverse.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ namespace remap {
 // rises with specular at every alpha. Target alpha rises with alpha along a line of equal target specular.
 std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target);
 
-// A RoundTrip holds the relative changes |round trip - texel| / texel of alpha and of specular. It uses the
-// texels of a grid on the domain of `there` that arrive in the domain of `back`, without limits (is_inside())
-// in either direction.
+// A RoundTrip holds the relative changes |round trip - texel| / texel of alpha and of specular. Its texels
+// are on a grid over the domain of `there`. They must arrive in the domain of `back`, without limits
+// (is_inside()) in either direction.
 struct RoundTrip {
   double alpha_median = 0.0, alpha_p99 = 0.0;
   double specular_median = 0.0, specular_p99 = 0.0;
-  double share = 0.0;  // used part of the grid; 0: there are no figures
+  double share = 0.0;  // used fraction of the grid; if 0, the other members mean nothing
 };
 RoundTrip round_trip(const Fit& there, const Fit& back);
 

@@ -1,6 +1,5 @@
-// This file limits the fits that are read and written. Each limit is several times the size of any shipped
-// fit and of any result of remapc's regressions. It is low enough that showing, emitting and converting by a
-// fit at the limit takes seconds.
+// This file limits the fits that remapc reads and writes. Each limit is several times as large as any fit
+// that remap ships or finds. A fit at the limits can still be shown, emitted and applied in a few seconds.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +9,14 @@
 
 namespace remap {
 
-// These limit a parametric mapping: powers of specular, powers of alpha, terms of specular.
+// These limit a parametric mapping: powers of specular, powers of alpha, and terms of specular.
 inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kMostTerms = 64;
-// This limits the Gaussians of each output.
+// This limits the number of Gaussians for each output.
 inline constexpr std::size_t kMostVectors = 4096;
-// These limit each network.
+// These limit every network.
 inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
-// This limits alpha and specular of a source. Physical values end at 1, scales of some models at less than
-// 10.
+// This limits alpha and specular of a source. Physical values are at most 1, and scales of some models are
+// below 10.
 inline constexpr double kLargestDomain = 1000.0;
 
 // Returns which part of a fit or a network exceeds a limit: `has 5000 support vectors; at most 4096 are

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kSampledAlphas = 48, kSampledSpeculars = 24;  // numbers of samples to which a form is fitted
 constexpr std::size_t kMostLoweredPowers = 8, kMostLoweredTerms = 12;
-constexpr double kLoosest = 10.0;     // loosest accepted bound, as a multiple of the tolerances
-constexpr std::size_t kBoxes = 6000;  // a proof examines at most this many boxes, which takes about a second
+constexpr double kLoosest = 10.0;     // loosest bound that is accepted, as a multiple of the tolerances
+constexpr std::size_t kBoxes = 6000;  // a proof examines at most so many boxes, which takes about a second
 
-// Returns the shapes, fewest numbers first. A mapping that does not depend on t needs only one power.
+// Returns the shapes, the smallest first. A mapping that does not depend on t needs only one power.
 std::vector<FormShape> lowering_shapes(const MappingKind& mapping) {
   std::vector<FormShape> shapes;
   const bool has_t = alpha_depends_on_specular(mapping) || !is_proportional(mapping);

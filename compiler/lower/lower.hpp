@@ -1,4 +1,5 @@
-// This file lowers a mapping to the compact form, with an error bound that is proven over the whole domain.
+// This file replaces a mapping by a form of a few numbers (lowers it), with an error bound that is proven
+// over the whole domain.
 #pragma once
 
 #include "lower/fit.hpp"
@@ -11,7 +12,7 @@ inline constexpr double kLoweringTolerance = 1e-3;
 
 struct Lowered {
   CompactForm form;
-  // These bounds are proven: |form in float arithmetic - mapping| over the whole domain, below the limits.
+  // These bounds are proven for |form in float arithmetic - mapping| over the whole domain, below the limits.
   double alpha_bound = 0.0, specular_bound = 0.0;
 };
 
@@ -19,7 +20,8 @@ struct Lowered {
 // unchanged. Throws kNumeric if no form is proven within ten times the tolerance.
 Lowered lower(const Fit& fit, double tolerance = kLoweringTolerance);
 
-// Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit stays.
+// Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit is
+// unchanged.
 void add_converter(Fit* fit, double tolerance = kLoweringTolerance);
 
 }  // namespace remap

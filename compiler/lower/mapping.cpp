@@ -15,7 +15,7 @@ std::size_t count_of(const KernelExpansion& expansion) {
   return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
 }
 
-// Counts the constants that a curve needs. A missing term costs nothing.
+// Counts the constants of a curve. A missing term needs none.
 std::size_t count_of(const AlphaCurve& curve) {
   std::size_t count = 1;
   if (curve.ramp != 0.0) count += 2;

@@ -52,14 +52,14 @@ struct Parametric {
 };
 
 // A KernelExpansion is a sum of Gaussians, the result of support vector regression (Chang and Lin 2011,
-// equation 10). Its normalised output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), with x the
-// normalised inputs.
+// equation 10). Its normalised output is bias + sum of weights[i] exp(-gamma |x - vector i|^2), where x are
+// the normalised inputs.
 struct KernelExpansion {
   std::vector<Scaling> inputs;  // 1: alpha; 2: alpha, specular
   Scaling output;
   double gamma = 1.0;  // > 0
   double bias = 0.0;
-  std::vector<double> vectors;  // normalised, one row of inputs.size() after the other
+  std::vector<double> vectors;  // normalised; rows of inputs.size() numbers
   std::vector<double> weights;  // one per vector
   std::size_t count() const noexcept { return weights.size(); }
   bool operator==(const KernelExpansion&) const = default;
@@ -72,15 +72,15 @@ struct Svr {
   bool operator==(const Svr&) const = default;
 };
 
-// Mlp is the kind `mlp`, with one network per output, of only alpha or of alpha and specular.
+// Mlp is the kind `mlp`, with one network per output. Its inputs are alpha, or alpha and specular.
 struct Mlp {
   Network alpha;
   Network specular;
   bool operator==(const Mlp&) const = default;
 };
 
-// A new kind is a new alternative here; std::visit makes every consumer handle it. CompactForm is the kind
-// `compact`, the form that converters have. The others are lowered to it.
+// A new kind of mapping is added here, and std::visit makes every caller handle it. CompactForm is the kind
+// `compact`, which converters have. All other kinds are lowered to it.
 using MappingKind = std::variant<CompactForm, Parametric, Svr, Mlp>;
 
 // Returns the name in JSON, on the command line and on model cards.
@@ -88,7 +88,7 @@ std::string kind_name(const MappingKind& mapping);
 
 bool alpha_depends_on_specular(const MappingKind& mapping);
 
-// Returns true if target specular is a function of alpha times specular, so that channels are independent.
+// Returns true if target specular is a function of alpha times specular. Channels are then independent.
 bool is_proportional(const MappingKind& mapping);
 
 // A MappedTexel holds the two parameters of a texel with one channel.

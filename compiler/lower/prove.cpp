@@ -12,8 +12,8 @@ namespace remap {
 namespace {
 
 constexpr double kFloatUnit = 1.0 / 16777216.0;  // unit roundoff of a float, 2^-24
-// Widens the domain. Converters read the model's own parameter as a float. So the ends of the domain move by
-// a few units in the last place of alpha or, for glossiness, of 1 - sqrt(alpha).
+// Returns how much the domain is widened. Converters read the model's own parameter as a float. So the ends
+// of the domain move by a few units in the last place of alpha, or for glossiness of 1 - sqrt(alpha).
 double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
 
 using TexelTaylor = Taylor<2, 7>;  // variable 0 is alpha, variable 1 specular
@@ -38,7 +38,7 @@ double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 void judge(Box& box, const TexelTaylor& error) {
   box.bound = claimed(error.bound());
   box.at_least = std::fabs(error.constant()) - error.rest();
-  // If the remainder dominates the polynomial, the extents are meaningless. The box is then halved along
+  // If the remainder is larger than the polynomial, its extents mean nothing. The box is then halved along
   // alpha and specular in turn.
   const double alpha = error.extent(0), specular = error.extent(1);
   const bool tells = std::isfinite(box.bound) && std::max(alpha, specular) > 0.01 * error.rest();
@@ -50,7 +50,7 @@ std::vector<Box> first_boxes(const Domain& domain) {
   constexpr int kAlphaBoxes = 16, kSpecularBoxes = 4;
   const Range alpha{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)};
   const Range specular{domain.specular.min * (1.0 - 2e-6), domain.specular.max * (1.0 + 2e-6)};
-  // Spacing is quadratic, because curves bend most near 0.
+  // The spacing is quadratic, because curves bend most close to 0.
   const auto part = [](const Range& range, int k, int count) {
     return k == count ? range.max : range.min + (range.max - range.min) * k * k / (count * count);
   };
@@ -74,8 +74,8 @@ std::array<Box, 2> halves(const Box& box) {
   return {low, high};
 }
 
-// Halves the worst box until the worst bound is at most `target`, the budget is spent, or it is clear that
-// the target cannot be reached.
+// Halves the worst box again and again. Ends when the worst bound is at most `target`, when the budget is
+// spent, or when `target` clearly cannot be reached.
 double proven_bound(const TexelFunction& error, const Domain& domain, double target, std::size_t budget) {
   std::priority_queue<Box> queue;
   double at_least = -INFINITY;

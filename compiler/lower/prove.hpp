@@ -1,5 +1,5 @@
-// This file proves properties of a form that replaces a mapping. It uses Taylor models over boxes that are
-// halved until their bounds suffice, and rounding error analysis.
+// This file proves properties of a form that replaces a mapping. It uses Taylor models over boxes, which it
+// halves until their bounds suffice, and an analysis of rounding errors.
 #pragma once
 
 #include "lower/fit.hpp"
@@ -12,8 +12,8 @@ struct Distance {
 };
 
 // Returns bounds on |form - mapping| in real arithmetic over the whole domain. They are infinite if none was
-// found. It halves boxes until the bounds are at most `target`, `box_budget` boxes have been examined for
-// each, or a box shows that the target cannot be reached.
+// found. Halves boxes until the bounds are at most `target`, until it has examined `box_budget` boxes for
+// each bound, or until a box shows that `target` cannot be reached.
 Distance proven_distance(const MappingKind& mapping, const CompactForm& form, const Domain& domain,
                          const Distance& target, std::size_t box_budget);
 

@@ -1,6 +1,7 @@
-// This file implements Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on
-// its remainder. The functions of lower/evaluate.hpp, applied to them, enclose the function over the whole
-// box, including rounding errors. Lowering proves its error bounds with them.
+// This file implements Taylor models (Makino and Berz 2003). A Taylor model is a polynomial over a box, and a
+// proven bound on the error of the polynomial. If a function of lower/evaluate.hpp is applied to Taylor
+// models, the result encloses the function over the whole box, including rounding errors. Lowering proves its
+// error bounds in this way.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +14,9 @@
 
 namespace remap {
 
-// A Taylor is a polynomial of total degree `Order` in 1 or 2 variables, each in [-1, 1] over the box. The
-// enclosed function lies within `rest` of the polynomial everywhere in the box. After an overflow, and for a
-// function that is unbounded over the box, rest is infinite or NaN, which makes no statement.
+// A Taylor is a polynomial of total degree `Order` in 1 or 2 variables, each in [-1, 1] over the box.
+// Everywhere in the box, the enclosed function differs from the polynomial by at most `rest`. After an
+// overflow, and if the function is unbounded, `rest` is infinite or NaN, so the model states nothing.
 template <int Variables, int Order>
 class Taylor {
   static_assert(Variables == 1 || Variables == 2);
@@ -34,7 +35,7 @@ class Taylor {
     result.rest_ = kUnit * (std::fabs(centre) + half_width);
     return result;
   }
-  // Returns a model that claims nothing.
+  // Returns a model that states nothing.
   static Taylor unbounded() {
     Taylor result;
     result.rest_ = std::numeric_limits<double>::infinity();
@@ -49,8 +50,8 @@ class Taylor {
   double& at(int i, int j) { return coefficients_[index(i, j)]; }
   double at(int i, int j) const { return coefficients_[index(i, j)]; }
 
-  // Return bounds: the function lies within `deviation` of the constant, and within `bound` of 0. They are
-  // rounded up, because they are sums.
+  // Return bounds: the function differs from the constant by at most `deviation`, and is at most `bound` in
+  // magnitude. Both are rounded up, because they are sums.
   double deviation() const { return (norm(1) + rest_) * kRoundUp; }
   double bound() const { return (norm(0) + rest_) * kRoundUp; }
   // Returns the sum of the magnitudes of one variable's pure powers: the weight of that direction.
@@ -104,7 +105,7 @@ class Taylor {
   static constexpr int size_of(int degree) { return Variables == 1 ? 1 : degree + 1; }
   static constexpr std::size_t first_of(int degree) { return index(degree, 0); }
 
-  // Return the sum of magnitudes from a degree on, and of one degree.
+  // Return the sum of the magnitudes of coefficients: from a degree on, and of one degree.
   double norm(int from) const {
     double sum = 0.0;
     for (std::size_t k = first_of(from); k < kCount; ++k) sum += std::fabs(coefficients_[k]);
@@ -132,7 +133,7 @@ class Taylor {
       }
     const auto in_a = a.norms(), in_b = b.norms();
     double dropped = 0.0, total_a = 0.0, total_b = 0.0, tail_b = 0.0;
-    for (int d = 0; d <= Order; ++d) {  // degrees d of a with degrees above Order - d of b
+    for (int d = 0; d <= Order; ++d) {  // degree d of a times degrees above Order - d of b
       dropped += in_a[static_cast<std::size_t>(d)] * tail_b;
       tail_b += in_b[static_cast<std::size_t>(Order - d)];
       total_a += in_a[static_cast<std::size_t>(d)];
@@ -148,7 +149,7 @@ class Taylor {
 };
 
 // evaluate.hpp needs the following functions. The series use the constant x0 of the argument, y = x - x0, |y|
-// <= r. Lagrange's form or Cauchy's estimate, as noted at each, bounds the remainder.
+// <= r. The remainder is bounded by Lagrange's form or by Cauchy's estimate, as each function states.
 
 // Uses phi(x0 + y) = phi(x0) + exp(-rate x0) sum of (-rate)^(k-1) y^k / k!; Lagrange, largest at x0 - r.
 template <int V, int N>
@@ -165,8 +166,8 @@ Taylor<V, N> rise(double rate, const Taylor<V, N>& x) {
     term *= -rate;
   }
   left *= x.deviation() / (N + 1);
-  // The coefficients round in proportion to the argument of exp. Their sum belongs to a function below 1 /
-  // rate, and below x if the rate is small. Note that z exp(-z) < 1.
+  // The coefficients round in proportion to the argument of exp. Their sum belongs to a function that is
+  // below 1 / rate, and below x if the rate is small. z exp(-z) is below 1.
   return Taylor<V, N>::compose(x, series,
                                left * (1.0 + 1e-12) + 4e-15 * (std::fabs(series[0]) + x.deviation()));
 }
@@ -186,8 +187,9 @@ Taylor<V, N> reciprocal(const Taylor<V, N>& x) {
   return Taylor<V, N>::compose(x, series, left * (1.0 + 1e-6) + 2e-14 / std::fabs(x0));
 }
 
-// Uses tanh' = 1 - tanh^2 for the coefficients. On a disc of radius 1 around a real number |tanh| <= tan(1).
-// So by Cauchy the k-th coefficient is at most tan(1). A wide argument is only enclosed by its ends.
+// The coefficients come from tanh' = 1 - tanh^2. On a disc of radius 1 around a real number, |tanh| <=
+// tan(1). So by Cauchy, the k-th coefficient is at most tan(1). If the argument has a wide range, only the
+// values at its ends enclose the result.
 template <int V, int N>
 Taylor<V, N> hyperbolic_tangent(const Taylor<V, N>& x) {
   const double x0 = x.constant(), r = x.deviation();
@@ -222,21 +224,22 @@ Taylor<V, N> rectified(const Taylor<V, N>& x) {
   return result;
 }
 
-// Encloses exp(-gamma (d + h u)^2) over u in [-1, 1], d = x0 - v, as height exp(p), p = a u + b u^2. (exp p)'
-// = p' exp p gives the coefficients. By Cauchy on a disc of radius R the rest is at most M R^-(N+1) / (1 - 1
-// / R), M = height exp(|a| R + |b| R^2). It is computed in logarithms, because height itself may underflow.
+// Encloses exp(-gamma (d + h u)^2) for u in [-1, 1], where d = x0 - v. The result is height exp(p) with p = a
+// u + b u^2, and (exp p)' = p' exp p gives its coefficients. By Cauchy, on a disc of radius R the rest is at
+// most M R^-(N+1) / (1 - 1 / R) with M = height exp(|a| R + |b| R^2). The rest is computed in logarithms,
+// because height may underflow.
 template <int N>
 struct GaussianSeries {
   std::array<double, N + 1> coefficients{};
   double total = 0.0;     // sum of magnitudes, and the remainder
-  double rounding = 0.0;  // distance of all coefficients together from exact real arithmetic
+  double rounding = 0.0;  // distance of all coefficients from exact real arithmetic
 
   GaussianSeries(double gamma, double distance, double half_width) {
     constexpr double kUnit = Taylor<1, N>::kUnit;
     const double a = -2.0 * gamma * distance * half_width, b = -gamma * half_width * half_width;
     const double exponent = gamma * distance * distance;
     const double height = std::exp(-exponent);
-    // Signs alternate in the recurrence. So its roundings are bounded by the same recurrence without signs.
+    // Terms of the recurrence have different signs. The same recurrence with magnitudes bounds its rounding.
     std::array<double, N + 1> unsigned_coefficients{};
     coefficients[0] = unsigned_coefficients[0] = height;
     for (std::size_t k = 1; k <= N; ++k) {
@@ -254,11 +257,12 @@ struct GaussianSeries {
       total += std::fabs(coefficients[k]);
       rounding += unsigned_coefficients[k];
     }
-    // The rounding of `height` comes from the exponent. A step of the recurrence has eight operations.
+    // The rounding error of `height` comes from its exponent. One step of the recurrence has eight
+    // operations.
     rounding *= kUnit * (8.0 * N + 4.0 + 4.0 * exponent);
-    // exp(largest) rounds like its exponents.
+    // The rounding error of exp(largest) comes from its exponent, too.
     total = (total + left * (1.0 + 1e-12 * (1.0 + exponent + std::fabs(largest)))) * (1.0 + 1e-14);
-    // If the series is not good, use only the values: from 0 to the value at the closest point.
+    // If the series is not accurate, use only the values: from 0 to the value at the closest point.
     const double nearest = std::max(0.0, std::fabs(distance) - half_width);
     const double peak = std::min(1.0, std::exp(-gamma * nearest * nearest) * (1.0 + 1e-9));
     if (total <= 2.0 * peak || !std::isfinite(distance) || !std::isfinite(half_width)) return;
@@ -268,7 +272,8 @@ struct GaussianSeries {
   }
 };
 
-// Holds the sum as a polynomial in the inputs' deviations from their constants. Inputs are inserted last.
+// Holds the sum as a polynomial in the deviations of the inputs from their constants. The inputs are inserted
+// last.
 template <int V, int N>
 Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Taylor<V, N>>& inputs) {
   std::array<std::array<double, N + 1>, N + 1> sums{};  // [power of input 0][power of input 1]

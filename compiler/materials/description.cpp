@@ -43,8 +43,8 @@ bool begins_with_operator(const std::string& words) {
   return std::string_view("+-*/?:").find(words.front()) != std::string_view::npos;
 }
 
-// Returns the statements of a file. A line that begins with an operator continues the line before it. If a
-// blank line follows the first comment, `head` receives that comment.
+// Returns the statements of a file. If a line begins with an operator, it continues the line before it. If a
+// blank line follows the first comment, `head` receives this comment.
 std::vector<SourceLine> lines_of(std::string_view text, std::string* head) {
   std::vector<SourceLine> lines;
   std::istringstream stream{std::string(text)};
@@ -198,7 +198,7 @@ class ExpressionParser {
   std::size_t at_ = 0;
 };
 
-// Calls `parse(line)`. If it throws, the message gets the file and the line.
+// Calls `parse(line)`. If this throws, adds the file and the line to the message.
 template <typename Parse>
 void at_line(const std::string& name, const SourceLine& line, const Parse& parse) {
   try {
@@ -291,7 +291,7 @@ MaterialLibrary load_library() {
   const auto model = [&](const std::string& id) -> const MaterialModel& {
     return *std::ranges::find(library.models, id, &MaterialModel::id);
   };
-  // The translations that people ask for most come first.
+  // The translations that people need most come first.
   constexpr std::array<std::array<const char*, 3>, 9> kShipped = {
       {{"UsdPreviewSurface", "open_pbr_surface", ""},
        {"principled", "open_pbr_surface", ""},

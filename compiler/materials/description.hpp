@@ -29,7 +29,7 @@ struct MaterialInput {
 };
 
 struct MaterialModel {
-  std::string id;     // the node name in MaterialX if it has the model: `open_pbr_surface`
+  std::string id;     // name of the node in MaterialX, such as `open_pbr_surface`, if there is one
   std::string title;  // name and version
   std::vector<MaterialInput> inputs;
 
@@ -39,7 +39,7 @@ struct MaterialModel {
 struct Translation {
   const MaterialModel* from = nullptr;
   const MaterialModel* to = nullptr;
-  std::string variant;  // such as `_specular`, for a second translation between the same models
+  std::string variant;  // such as `_specular`, if this is a second translation between the same models
   std::string comment;  // the comment at the top of the file
   // The name of a source's input is `source.x`, and the name of a target's input is `target.x`.
   std::vector<Statement> lines;
@@ -55,13 +55,14 @@ struct MaterialLibrary {
   std::vector<Translation> translations;
 };
 
-// These functions throw kInput with the line and what is wrong. `name` is the name of the file, for messages.
+// These functions throw kInput with the line and what is wrong in it. `name` is the name of the file, for
+// messages.
 std::vector<MaterialModel> parse_models(std::string_view text, const std::string& name);
 std::vector<FormulaFunction> parse_functions(std::string_view text, const std::string& name);
 Translation parse_translation(std::string_view text, const std::string& name, const MaterialModel& from,
                               const MaterialModel& to, const std::vector<FormulaFunction>& functions);
 
-// Returns the descriptions that are compiled in.
+// Returns the descriptions that are compiled into the program.
 const MaterialLibrary& material_library();
 
 }  // namespace remap

@@ -16,8 +16,8 @@ std::string materials_header(const MaterialLibrary& library);
 // translation.
 std::string materials_module(const MaterialLibrary& library);
 
-// Returns node definitions. MaterialX' ShaderTranslator finds them by the names of their nodes. Translations
-// to or from models that have no node in MaterialX (Blender's) are left out.
+// Returns node definitions. MaterialX' ShaderTranslator finds them by the names of their nodes. Models
+// without a node in MaterialX (Blender's) are left out.
 std::string materials_graphs(const MaterialLibrary& library);
 
 // Returns the lines of a comment in a language whose comments begin with `mark`.

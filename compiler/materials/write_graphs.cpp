@@ -1,4 +1,4 @@
-// This file writes node graphs of MaterialX.
+// This file writes node graphs of MaterialX for the translations of whole materials.
 #include "core/number_text.hpp"
 #include "formula/graph_writer.hpp"
 #include "materials/materials.hpp"

@@ -1,4 +1,4 @@
-// This file writes the C++ header.
+// This file writes the C++ header with the translations of whole materials.
 #include <algorithm>
 #include <cctype>
 

@@ -1,4 +1,4 @@
-// This file writes the Python module.
+// This file writes the Python module with the translations of whole materials.
 #include "core/number_text.hpp"
 #include "formula/text_template.hpp"
 #include "materials/materials.hpp"

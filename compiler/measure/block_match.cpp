@@ -32,7 +32,7 @@ class WidthMatch {
     if (sample.specular == 0.0 || is_black_) return flat_row(sample, setup_.target);
     Match match;
     if (shared_) {
-      std::vector<std::size_t> minima;  // products are shared, so each material can search the whole bank
+      std::vector<std::size_t> minima;  // materials share products, so each can search the whole bank
       std::vector<double> coefficients = {std::min(sample.specular, setup_.source.linear_range().max)};
       if (!setup_.source.response.proportional()) coefficients.push_back(1.0);
       match = shared_->match(coefficients, &minima);
@@ -47,8 +47,9 @@ class WidthMatch {
   }
 
  private:
-  // Pictures of an affine source are combinations of two. If the weights do not depend on specular either
-  // (uniform, or relative to a picture that only scales), one set of inner products serves all samples.
+  // An affine source has only two basic pictures, and all others are combinations of these. If the weights do
+  // not depend on specular, one set of inner products serves all samples. This holds for uniform weights, and
+  // for weights relative to a picture that specular only scales.
   void share_products() {
     AffinePictures pictures = take_affine(setup_.picture_taker, setup_.source, alpha_);
     is_black_ = is_black(pictures.full);
@@ -57,7 +58,7 @@ class WidthMatch {
     shared_.emplace(*setup_.target.bank, std::move(basis), setup_.picture_taker.weights(pictures.full));
   }
 
-  // Interpolates the source's pictures if this is as accurate as rendering them and needs fewer renders.
+  // Interpolates the pictures of the source if this is as accurate as rendering and needs fewer renders.
   void interpolate(std::size_t sample_count) {
     family_ = setup_.source.family();
     if (family_ && family_->picture_count() >= sample_count) family_.reset();
@@ -66,14 +67,15 @@ class WidthMatch {
 
   std::vector<float> picture(double specular) const {
     if (!family_) return setup_.picture_taker.take(setup_.source, {alpha_, specular, 0.0});
-    // The exact picture is black, but the combination would leave rounding errors.
+    // This picture is black, but the combination would not be exactly 0.
     if (specular <= family_->range.min && setup_.source.response.black_base)
       return std::vector<float>(pictures_.front().size());
-    // The picture is constant beyond a knee.
+    // Beyond a knee, the picture does not change.
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
-  // Matches a target without a family by non-linear least squares, from the best points of a grid.
+  // Matches a target without a family by non-linear least squares. The search starts from the best points of
+  // a grid.
   Match match_by_itself(JointChannel source) {
     if (setup_.target.bank)
       return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
@@ -87,15 +89,15 @@ class WidthMatch {
   std::optional<Matcher> shared_;
   bool is_black_ = false;
   std::optional<SpecularFamily> family_;
-  std::vector<std::vector<float>> pictures_;  // pictures of the family
-  std::vector<std::size_t> minima_;           // minima of the sample before
+  std::vector<std::vector<float>> pictures_;  // pictures whose combinations give the family
+  std::vector<std::size_t> minima_;           // minima of the previous sample
 };
 
-// This many halvings of the step between samples find a joint of regimes.
+// The step between two samples is halved so many times to find where a regime ends.
 constexpr int kJointHalvings = 6;
 
-// Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples. Fits of the
-// regimes must meet there.
+// Adds rows on both sides of every place where the regime (RowStatus) changes between neighbouring samples,
+// because fits of two regimes must meet there.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
   const Limits limits = setup.limits();
   for (TableRow& row : *rows) row.status = status_at(row, limits);
@@ -105,12 +107,12 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
     return a.status != b.status && has_answer(a) && has_answer(b);
   };
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
-    // Between two samples lies at most one corner, so at most two boundaries.
+    // At most one corner lies between two samples, so at most two regimes end there.
     TableRow below = sorted[i];
     for (int joint = 0; joint < 2 && differ(below, sorted[i + 1]); ++joint) {
       const TableRow start = below;
       TableRow above = sorted[i + 1];
-      // Keep the last two on each side, so that one stays if the other is held out.
+      // Keep the last two rows on each side. If one is held out, the other remains.
       std::vector<TableRow> on_this_side, beyond;
       for (int k = 0; k < kJointHalvings; ++k) {
         const double middle = rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
@@ -127,7 +129,7 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
   }
 }
 
-// Matches only diffuse: multiplies it by the ratio of the two models.
+// Matches diffuse separately: the target's diffuse is the source's times the ratio of the two models.
 void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;
@@ -136,7 +138,8 @@ void match_diffuse_separately(const SweepSetup& setup, TableRow* row) {
   if (row->diffuse2 != wanted && row->status == RowStatus::kOk) row->status = RowStatus::kClamped;
 }
 
-// Compares the whole picture, diffuse and specular. It computes the error (two stages) or the joint match.
+// Compares the whole picture, with diffuse and specular. Computes its error (two stages), or does the joint
+// match.
 void match_whole(const SweepSetup& setup, TableRow* row) {
   const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;

@@ -1,4 +1,4 @@
-// This file matches the samples of one source width, the unit of work of a sweep.
+// This file matches the samples of one source width. A sweep distributes such blocks to threads.
 #pragma once
 
 #include <memory>
@@ -34,10 +34,11 @@ struct SweepSetup {
   Limits limits() const { return {target_widths.max, target.linear_range().max}; }
 };
 
-// Returns true if rows have diffuse: the source has some, or the target's is matched together with the rest.
+// Returns true if rows have diffuse, because the source has diffuse, or because the target's diffuse is
+// matched together with the rest.
 bool has_diffuse(const SweepOptions& options);
 
-// Returns the rows of a block in its order, then the rows that mark where regimes meet.
+// Returns the rows of a block in its order, followed by the rows at the places where the regime changes.
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block);
 
 }  // namespace remap

@@ -16,12 +16,12 @@ namespace {
 using Radiances = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
-// This is the finest number of steps. Degrees up to half of it can be checked between their nodes.
+// This is the largest number of steps. It can check degrees up to half of it between their nodes.
 constexpr std::size_t kFinest = 32;
 constexpr std::size_t kLeastChecked = 8;
 
-// Returns a Chebyshev point of the second kind in [-1, 1]; polynomials through these points do not oscillate
-// (Trefethen 2013, chapter 2). Every second point belongs to the set of half the size. The ends and the
+// Returns a Chebyshev point of the second kind in [-1, 1]. Polynomials through these points do not oscillate
+// (Trefethen 2013, chapter 2). Every second point is also a point for half as many steps. The ends and the
 // middle are exact.
 double chebyshev_point(std::size_t index) {
   const double steps = 2.0 * static_cast<double>(index) - static_cast<double>(kFinest);
@@ -49,7 +49,7 @@ class FamilyProbe {
       : picture_taker_(picture_taker),
         model_(model),
         axis_{model.parameter(ParameterRole::kSpecular).range, coordinate, {}, {}},
-        // The widest comes first: its highlight covers all angles, so it is the first to fail a check.
+        // The widest comes first. Its highlight covers all angles, so it is the most likely to fail a check.
         widths_{{alphas.max, {}}, {std::sqrt(alphas.min * alphas.max), {}}, {alphas.min, {}}} {}
 
   // Returns true if polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
@@ -63,8 +63,8 @@ class FamilyProbe {
     return holds(points, family(points, identity), degree);
   }
 
-  // Returns a family of as few pictures as possible, taken from the nodes of `degree`, whose combinations
-  // reproduce all others.
+  // Returns the smallest family whose combinations reproduce all pictures. Its pictures are at nodes of
+  // `degree`.
   SpecularFamily smallest(std::size_t degree) {
     Matrix gram = gram_matrix(degree);
     std::vector<std::size_t> pivots;
@@ -79,7 +79,7 @@ class FamilyProbe {
       eliminate(next, &gram);
       pivots.push_back(next);
       std::vector<std::size_t> points;
-      Matrix shares;  // weight of each pivot in each picture
+      Matrix shares;  // weight of each pivot in each node's picture
       for (const std::size_t pivot : pivots) {
         points.push_back(pivot * kFinest / degree);
         shares.push_back(gram[pivot]);
@@ -92,7 +92,7 @@ class FamilyProbe {
  private:
   struct Width {
     double alpha;
-    std::map<std::size_t, Radiances> pictures;  // keyed by point
+    std::map<std::size_t, Radiances> pictures;  // keyed by the index of the point
   };
 
   const Radiances& picture(Width& width, std::size_t point) const {
@@ -121,7 +121,8 @@ class FamilyProbe {
     return found;
   }
 
-  // Returns true if the family reproduces the pictures at every width, at twice the nodes of `degree`.
+  // Returns true if combinations of the family give the pictures at every width, at twice as many nodes as
+  // `degree` has.
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
     return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
@@ -158,7 +159,7 @@ class FamilyProbe {
 
   const PictureTaker& picture_taker_;
   const ModelDescription& model_;
-  SpecularFamily axis_;  // only the fields range and coordinate_kind are used
+  SpecularFamily axis_;  // only its range and coordinate_kind are used
   std::vector<Width> widths_;
 };
 

@@ -6,7 +6,8 @@
 
 namespace remap {
 
-// This many bank nodes join in an interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in alpha.
+// This many nodes of the bank are interpolated together. Twelve nodes that are 5 % apart leave an error of
+// 1e-7 in alpha.
 inline constexpr std::size_t kInterpolationNodes = 12;
 
 // A LagrangeBasis is the Lagrange basis on `nodes` at `x`: values and first derivatives.
@@ -21,7 +22,7 @@ struct LagrangeBasis {
       for (std::size_t j = 0; j < kInterpolationNodes; ++j) {
         if (j == i) continue;
         const double factor = (x - nodes[j]) / (nodes[i] - nodes[j]);
-        sum = sum * factor + product / (nodes[i] - nodes[j]);  // product rule, one factor at a time
+        sum = sum * factor + product / (nodes[i] - nodes[j]);  // product rule, with one factor after another
         product *= factor;
       }
       value[i] = product;

@@ -12,14 +12,14 @@ namespace remap {
 namespace {
 
 constexpr double kJointRivalError = 1.01;  // see kRivalError in match.cpp
-// rivals whose parameters differ by less than this fraction are the same answer
+// If all parameters of a rival differ by less than this fraction, it is the same answer.
 constexpr double kJointRivalDistance = 0.1;
-// A search ends at this relative change of the squared error. Rivals are compared with the answer only to one
-// percent, so they need less precision.
+// A search ends at this relative change of the squared error. A search from a rival needs less precision,
+// because its result is compared only to one percent.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
-constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
-constexpr double kBoundTolerance = 1e-6;  // fraction of the range
+constexpr double kJointSameError = 1e-4;  // smaller errors come from rounding in pictures
+constexpr double kBoundTolerance = 1e-6;  // as a fraction of the range
 
 using Matrix = std::vector<std::vector<double>>;
 
@@ -101,8 +101,8 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
   }
 
  private:
-  // Ceres evaluates the residuals when it tries a step, and the Jacobian at the same point when it accepts
-  // it.
+  // Ceres first evaluates the residuals of a step. If it accepts the step, it evaluates the Jacobian at the
+  // same point.
   const Matrix& triangle(const double* values) const {
     const bool known = !last_values_.empty() && std::equal(last_values_.begin(), last_values_.end(), values);
     if (!known) last_triangle_ = cholesky(gram(values));
@@ -212,8 +212,8 @@ Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
     problem.SetParameterUpperBound(values.data(), static_cast<int>(u), range.max);
   }
   ceres::Solver::Summary summary = solve(&problem, tolerance);
-  // Ceres projects steps into the bounds and converges slowly along them. Parameters that have reached a
-  // bound are therefore fixed, and the others are searched once more.
+  // Ceres projects steps into the bounds and converges slowly along them. So parameters at a bound are fixed,
+  // and the search for the others is repeated.
   std::vector<int> fixed;
   for (std::size_t u = 0; u < values.size(); ++u) {
     const Range& range = target_.coordinates()[unknowns_[u].coordinate].range;

@@ -1,8 +1,8 @@
 // This file does the joint match, which varies all free parameters of the target at once. It uses bounded
 // non-linear least squares over the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three
-// stages). It also serves targets that are not affine in specular. With several color channels, parameters
-// without color (such as width) are shared and the others are found for each channel. In a sweep, only this
-// file uses Ceres.
+// stages). It is also used for targets that are not affine in specular. With several color channels,
+// parameters without color (such as width) are shared, and each channel has its own values of the others. In
+// a sweep, only this file uses Ceres.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ struct JointChannel {
 
 class JointMatcher {
  public:
-  // A grey match has one channel. The channels' pictures must be as long as the target's. `target` must
-  // outlive the matcher.
+  // A grey match has one channel. The pictures of channels must be as long as the target's pictures. `target`
+  // must outlive the matcher.
   JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, DiffuseSearch diffuse);
 
   // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
@@ -48,15 +48,17 @@ class JointMatcher {
   // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
   double picture_error(std::span<const std::vector<float>> pictures) const;
 
-  // Converts fractions (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
-  // does not name get the fractions of alpha, specular and diffuse in turn.
+  // Converts fractions (0 to 1) of the target's ranges to parameters. A parameter without a role that
+  // `shares` does not name gets the fraction of alpha, specular or diffuse, in turn.
   RoleValues point_of(const RoleValues& shares) const;
 
-  // Returns four points to judge a match from: narrow and wide, weak and strong, bright and dark.
+  // Returns four other starting points, which show whether a match is unique: narrow and wide, weak and
+  // strong, bright and dark.
   std::vector<RoleValues> other_guesses() const;
 
  private:
-  // An Unknown is one searched number: a coordinate of one channel, or of all.
+  // An Unknown is one number that a search varies: a coordinate of one channel, or a coordinate that all
+  // channels share.
   struct Unknown {
     std::size_t coordinate;
     std::size_t channel;
@@ -77,7 +79,7 @@ class JointMatcher {
   std::vector<JointChannel> channels_;
   DiffuseSearch diffuse_;
   std::vector<Unknown> unknowns_;
-  std::vector<bool> wanted_;  // coordinates that are searched
+  std::vector<bool> wanted_;  // coordinates that the search varies
   double power_ = 0.0;
 };
 

@@ -11,13 +11,14 @@
 namespace remap {
 namespace {
 
-// The search starts on every sixth node of the bank; minima of the loss are far wider than that.
+// The search starts at every sixth node of the bank, because minima of the loss are much wider than six
+// nodes.
 constexpr std::size_t kCoarseStride = 6;
 // A second minimum makes a match unstable if its error is within 1 % of the best error and its width is more
 // than two bank steps away.
 constexpr double kRivalError = 1.01;
-// A second specular at one width also makes a match unstable if it differs by this fraction of the range.
-// Errors up to kSameError are treated as equal, because they are rounding errors of pictures.
+// A match is also unstable if a second specular at the same width differs by this fraction of the range.
+// Errors up to kSameError are treated as equal, because they come from rounding in pictures.
 constexpr double kRivalDistance = 0.02;
 constexpr double kSameError = 1e-4;
 
@@ -128,7 +129,7 @@ std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coeffi
   double lowest = loss_at_node(node, coefficients);
   for (;;) {
     std::size_t next = node;
-    for (const std::size_t neighbour : {node - 1, node + 1}) {  // node - 1 wraps at 0 and fails the check
+    for (const std::size_t neighbour : {node - 1, node + 1}) {  // node - 1 may wrap around, out of range
       if (neighbour >= bank_.size()) continue;
       const double candidate = loss_at_node(neighbour, coefficients);
       if (candidate < lowest) {
@@ -179,7 +180,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   return match;
 }
 
-// Returns the match at log(alpha) = `x` from the loss at that width, and its part from means.
+// Returns the match at log(alpha) = `x`, from the loss at this width and the part of the loss that means
+// contribute.
 Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss_of_means,
                         const std::vector<double>& coefficients) const {
   const SpecularFamily& family = bank_.family();

@@ -1,6 +1,6 @@
-// This file finds the width and specular of the target that give the picture of the source. At each width the
-// loss is a polynomial in the coordinate of the target's family, so its minimum over specular is found
-// exactly. The width is found by a search over the bank, then as the root of the derivative.
+// This file finds the width and specular of the target that give the picture of the source. At each width,
+// the loss is a polynomial in the coordinate of the target's family, so its minimum over specular is found
+// exactly. The best width is first searched in the bank, and then found as the root of the derivative.
 #pragma once
 
 #include <map>
@@ -31,9 +31,9 @@ class Matcher {
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, PictureWeights weights);
 
   // Finds the best match. It is kUnstable if another width or specular gives an equally good picture.
-  // `minima` holds the bank nodes where the search starts, and receives the nodes of the minima found. If it
-  // is empty, the whole bank is searched. Materials of similar specular have the same minima, so it saves
-  // most of the search to pass `minima` from one to the next.
+  // `minima` holds the bank nodes where the search starts, and receives the nodes of the minima that it
+  // finds. If it is empty, the whole bank is searched. Materials with similar specular have the same minima,
+  // so passing `minima` from one material to the next saves most of the search.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:

@@ -43,7 +43,7 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
   return {std::max(whole.min, std::min(narrow, wide)), std::min(whole.max, std::max(narrow, wide))};
 }
 
-// Throws for an unknown name, and for a parameter that has a role.
+// Throws for the name of an unknown parameter, or of a parameter that has a role.
 void require_roleless(const ModelDescription& model, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
@@ -119,7 +119,7 @@ double source_alpha(const Matching& matching, const Material& material) {
   return to_alpha(matching.source.roughness, material.parameters.at(name).front());
 }
 
-// Return the target's own name for a coordinate, and a canonical value in the target's unit.
+// Return the target's own name of a coordinate, and the target's own value for a canonical value.
 std::string target_name(const Matching& matching, std::size_t coordinate) {
   const ModelDescription& model = matching.target.model;
   if (coordinate == kAlphaCoordinate) return model.parameter(ParameterRole::kRoughness).name;
@@ -176,7 +176,8 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
                        const ModelDescription& source, const ModelDescription& target) {
   std::vector<ParameterDescription> varied =
-      // This may throw, so it is computed before the aggregate is made (see make_setup in sweep.cpp).
+      // This may throw, so it is computed before the aggregate below (make_setup() in sweep.cpp has the
+      // reason).
       varied_of(options, source);
   Matching matching{options, picture_taker, source, std::move(varied), {}, {}};
   require_roleless(target, options.searched);
@@ -208,7 +209,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments = {{"tool", std::string("remapc ") + kVersion},
               {"source", matching.source.name},
               {"source_roughness", std::string(encoding_name(matching.source.roughness))}};
-  ProbedModel target = matching.target;  // the matched parameters are left out, the rest is fixed
+  ProbedModel target = matching.target;  // without matched parameters; the remaining ones are fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
     return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
            options.searched.end();
@@ -224,7 +225,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments.emplace_back(
       "samples", std::to_string(options.count) + " random, uniform in " + ranges_text(matching.varied));
   comments.emplace_back("seed", std::to_string(options.seed));
-  ModelDescription source = matching.source;  // the varying parameters are left out
+  ModelDescription source = matching.source;  // without varying parameters
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
     return std::any_of(matching.varied.begin(), matching.varied.end(),
                        [&](const ParameterDescription& v) { return v.name == parameter.name; });

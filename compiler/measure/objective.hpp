@@ -21,32 +21,31 @@ inline constexpr NamedValues<Weighting, 2> kWeightings = {
 
 // An Objective is minimised over the target's parameters. It is the sum over lights and pixels of w^2 (source
 // - target)^2. With `mean_share`, each light adds mean_share * P * (mean(target) / mean(source) - 1)^2, where
-// P is the sum of w^2 source^2 over its pixels. The lobe's energy then counts more.
+// P is the sum of w^2 source^2 over its pixels. This term gives more weight to the energy of the lobe.
 struct Objective {
-  std::string name;  // name of the preset, or `custom`
+  std::string name;  // name of a preset, or `custom`
   std::vector<Light> lights;
   Weighting weighting = Weighting::kRelative;
-  double floor = 0.1;       // used by kRelative
-  double mean_share = 0.0;  // used by kRelative
+  double floor = 0.1;       // only for kRelative
+  double mean_share = 0.0;  // only for kRelative
 
-  // Multiplies the root of loss over power. The error is then relative to the power of the pixels, without
-  // means.
+  // Returns the factor for the root of loss over power. With it, the error is relative to the power of the
+  // pixels, without means.
   double error_factor() const { return compares_means() ? std::sqrt(1.0 + mean_share) : 1.0; }
   bool compares_means() const { return weighting == Weighting::kRelative && mean_share > 0.0; }
   bool operator==(const Objective&) const = default;
 };
 
-// Returns an objective by name; Objective::name also has its version.
-// `paper`: headlight, uniform weights, as in the published table (Sztrajman et al. 2019, section 4.1).
-// `natural-1`: light at 60 degrees, relative weights.
-// `natural-2`: light at 65 degrees, relative weights, and the mean with a share of 5; under environments its
-// matches are closer to the best possible (docs/decisions/047).
-// `natural`: the newest of them. Throws kUsage for an unknown name.
+// Returns an objective by name. `paper` has a headlight and uniform weights, like the published table
+// (Sztrajman et al. 2019, section 4.1). `natural-1` has a light at 60 degrees and relative weights.
+// `natural-2` has a light at 65 degrees, relative weights, and a mean_share of 5. Under environments, its
+// matches are closer to the best possible (docs/decisions/047). `natural` is the latest of these.
+// Objective::name has the version. Throws kUsage for an unknown name.
 Objective objective_preset(const std::string& name);
 inline const std::vector<std::string> kObjectives = {"natural", "natural-1", "natural-2", "paper"};
 
-// Returns the objective that a file names. In files, `natural` means `natural-1`, because files that say
-// `natural` were written before `natural-2` existed.
+// Returns the objective that a file names. In files, `natural` means `natural-1`, because older files were
+// written before `natural-2` existed.
 Objective recorded_objective(const std::string& name);
 
 // A picture is black if no value is above this radiance.
@@ -55,7 +54,7 @@ bool is_black(std::span<const float> picture);
 
 struct PictureWeights {
   std::vector<float> squared;      // w^2
-  std::vector<std::size_t> means;  // indices of the numbers that are means; the others are pixels
+  std::vector<std::size_t> means;  // indices of numbers that are means; all others are pixels
 };
 
 // Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`

@@ -15,7 +15,8 @@ ParameterDescription& named(ModelDescription* model, const std::string& name) {
   return model->parameters[static_cast<std::size_t>(&found - model->parameters.data())];
 }
 
-// Gives `role` to the parameter `name`. Its former parameter becomes kOther and is added to `displaced`.
+// Gives `role` to the parameter `name`. The parameter that had this role becomes kOther and is added to
+// `displaced`.
 void give_role(ModelDescription* model, ParameterRole role, const std::string& name,
                std::set<std::string>* displaced) {
   if (name.empty()) return;
@@ -88,7 +89,7 @@ ModelDescription recast(const ModelDescription& model, const ParameterRoles& rol
                                        " no longer has a role and needs a value (add " + *displaced.begin() +
                                        "=VALUE to the fixed parameters)");
   for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
-    if (model.has(role)) result.parameter(role);  // throws if another role already uses the parameter
+    if (model.has(role)) result.parameter(role);  // throws if the parameter has another role already
   if (!roles.roughness.empty() || roles.convention) measure_widths(&result);
   return result;
 }

@@ -1,6 +1,6 @@
-// This file chooses which parameters of a model a sweep varies and which values the others keep. A principled
-// material has more parameters than a sweep has roles: base color, metallic and specular level can each be
-// the specular.
+// This file chooses which parameters of a model a sweep varies, and which values the other parameters keep. A
+// principled material has more parameters than a sweep has roles. Base color, metallic or specular level can
+// each have the role of specular.
 #pragma once
 
 #include <map>
@@ -14,10 +14,10 @@ namespace remap {
 // A ParameterRoles assigns parameters to roles. An empty name keeps the model's parameter.
 struct ParameterRoles {
   std::string roughness;
-  std::optional<RoughnessEncoding> convention;  // of `roughness`; if empty, the model's own
+  std::optional<RoughnessEncoding> convention;  // encoding of `roughness`; if unset, the model's own
   std::string specular;
   std::string diffuse;
-  std::map<std::string, double> fixed;  // keyed by name
+  std::map<std::string, double> fixed;  // values by name of the parameter
 };
 
 // Reads back the roles recorded in a table of remapc sweep, from its comments `<side>_roughness_parameter`,
@@ -26,8 +26,8 @@ ParameterRoles recorded_roles(const std::string& roughness, const std::string& s
                               const std::string& fixed);
 
 // Returns `model` with the roles of `roles`. Fixed parameters, and parameters that lost their role, become
-// kOther and keep one value. Throws kUsage, beginning with the model's name, for an unknown parameter and a
-// value out of range. Also throws it for a parameter that lost its role without getting a value.
+// kOther and keep one value. Throws kUsage, beginning with the model's name, for an unknown parameter, for a
+// value out of range, and for a parameter that lost its role but has no value.
 ModelDescription recast(const ModelDescription& model, const ParameterRoles& roles);
 
 // Returns the parameters without a role as a table records them: `metallic=1,specular=0.5`.

@@ -1,5 +1,5 @@
-// This file sums over the pixels of pictures in double precision. The sums use two registers' worth of lanes
-// in a fixed order, so the result does not depend on how the compiler vectorises the loop.
+// This file sums over the pixels of pictures in double precision. It adds to a fixed number of sums in a
+// fixed order, so the result does not depend on how the compiler vectorises the loop.
 #pragma once
 
 #include <array>

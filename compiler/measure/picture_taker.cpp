@@ -22,7 +22,7 @@ void require_form(const Image& image, int resolution, const std::string& model) 
                                        " with 1 or 3)");
 }
 
-// Returns true if the picture at specular 0 is known to be black, so that it need not be rendered.
+// Returns true if the picture at specular 0 is known to be black. It then need not be rendered.
 bool has_no_base(const ProbedModel& probed_model) {
   return probed_model.response.proportional() && probed_model.linear_range().min == 0.0;
 }

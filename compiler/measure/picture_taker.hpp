@@ -1,6 +1,6 @@
 // This file renders the pictures that a match compares, under every light of the objective. It keeps only the
-// pixels that show the sphere. The pictures follow each other in one row of floats, each followed by its mean
-// over the square if the objective compares means.
+// pixels that show the sphere. All pictures are in one row of floats. If the objective compares means, each
+// picture is followed by its mean over the square.
 #pragma once
 
 #include <map>
@@ -15,12 +15,12 @@
 
 namespace remap {
 
-// A RoleValues holds values for the roles of a model's parameters: a grey material.
+// A RoleValues is a grey material. It has a value for each role of a model's parameters.
 struct RoleValues {
   double alpha = 0.0;
   double specular = 0.0;
   double diffuse = 0.0;
-  // values of kOther parameters by name; missing parameters have their standard values
+  // Values of kOther parameters by name. A parameter that is missing here has its standard value.
   std::map<std::string, double> others;
 
   RoleValues() = default;
@@ -32,8 +32,8 @@ struct RoleValues {
         others(std::move(other_values)) {}
 };
 
-// A ProbedModel is a model together with what its pictures revealed: the law of its specular parameter, and
-// the factor by which its pictures are multiplied.
+// A ProbedModel is a model and what its pictures showed: the law of its specular parameter, and the factor
+// for its pictures.
 struct ProbedModel {
   ModelDescription model;
   SpecularResponse response;
@@ -41,22 +41,22 @@ struct ProbedModel {
   // This is set for a model without a law, if probe_family found a family.
   std::optional<SpecularFamily> curve = std::nullopt;
 
-  // Returns how pictures depend on specular: by the law if there is one, otherwise by the interpolated
-  // family. Returns nothing if every picture must be rendered.
+  // Returns how pictures depend on specular, from the law or from probe_family(). Returns nothing if every
+  // picture must be rendered.
   std::optional<SpecularFamily> family() const;
 
-  // Return the range of canonical specular that the model accepts, and the part of it in which pictures are
-  // linear (up to the knee).
+  // Return the range of canonical specular that the model accepts, and the part up to the knee, in which
+  // pictures are linear.
   Range specular_range() const;
   Range linear_range() const;
-  Range diffuse_range() const;  // 0 to 0 for models without diffuse
+  Range diffuse_range() const;  // 0 to 0 for a model without diffuse
 };
 
 class PictureTaker {
  public:
   PictureTaker(const Renderer& renderer, const Objective& objective, int resolution, int samples_per_axis);
 
-  // Renders `model` under each light in turn. Each picture has pixel_count() floats and the mean if the
+  // Renders `model` under one light after another. Each picture has pixel_count() floats, and the mean if the
   // objective compares means. `specular` is the model's own parameter. Throws kInput for a picture of another
   // size and for values that are not finite.
   std::vector<float> take(const ModelDescription& model, const RoleValues& role_values) const;
@@ -75,7 +75,7 @@ class PictureTaker {
   // Returns the picture under the first light as a square, row 0 at the top, 0 outside the sphere.
   std::vector<float> square_picture(const std::vector<float>& row) const;
 
-  // Return the number of pixels of one picture that show the sphere, and the view cosine of each.
+  // Return the number of pixels that show the sphere, and the view cosine of each of them.
   std::size_t pixel_count() const { return cosines_.size(); }
   const std::vector<float>& view_cosines() const { return cosines_; }
   const Objective& objective() const { return objective_; }
@@ -97,8 +97,8 @@ struct AffinePictures {
 };
 AffinePictures take_affine(const PictureTaker& picture_taker, const ProbedModel& probed_model, double alpha);
 
-// Returns the pictures of the model's family at one width; the model must have one. For an affine family
-// these are base and slope, or only slope.
+// Returns the pictures of the model's family at one width. The model must have a family. For an affine
+// family, these are base and slope, or only slope.
 std::vector<std::vector<float>> take_family(const PictureTaker& picture_taker,
                                             const ProbedModel& probed_model, double alpha);
 

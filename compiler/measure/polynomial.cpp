@@ -6,10 +6,10 @@
 namespace remap {
 namespace {
 
-// This limits Newton's iterations. A step that would leave the bracket bisects it instead.
+// This limits the steps of Newton's method. If a step would leave the bracket, the bracket is halved instead.
 constexpr int kMostSteps = 100;
 
-// Returns the zero of a polynomial between `low` and `high`, where its values must differ in sign.
+// Returns the zero of a polynomial between `low` and `high`. Its values there must have different signs.
 double bracketed_root(const std::vector<double>& coefficients, const std::vector<double>& derivative,
                       double low, double high) {
   const bool rises = polynomial_value(coefficients, low) < 0.0;
@@ -26,8 +26,8 @@ double bracketed_root(const std::vector<double>& coefficients, const std::vector
   return x;
 }
 
-// Returns the zeros within `range` at which the sign changes, ascending. Neighbouring zeros of the derivative
-// enclose at most one.
+// Returns the zeros within `range` at which the sign changes, in rising order. Between two zeros of the
+// derivative, there is at most one.
 std::vector<double> roots(const std::vector<double>& coefficients, const Range& range) {
   if (coefficients.size() < 2) return {};
   const std::vector<double> derivative = polynomial_derivative(coefficients);

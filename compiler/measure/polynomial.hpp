@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Returns the value at `x` (Horner's rule); 0 for no coefficients.
+// Returns the value at `x`, by Horner's rule. Without coefficients, it is 0.
 double polynomial_value(const std::vector<double>& coefficients, double x);
 
 std::vector<double> polynomial_derivative(const std::vector<double>& coefficients);
@@ -24,8 +24,8 @@ struct PolynomialMinimum {
   double value = 0.0;
 };
 
-// Returns all local minima over `range`, ends included, the smallest value first; at least one. The vertex of
-// a parabola is moved into the range.
+// Returns all local minima over `range`, including its ends. There is at least one, and the smallest value
+// comes first. If the vertex of a parabola is out of the range, the closest end is used.
 std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coefficients, const Range& range);
 
 }  // namespace remap

@@ -20,12 +20,13 @@ using Radiances = std::vector<float>;
 constexpr double kPictureTolerance = 2e-6;
 // A quotient of sums over many pixels is more accurate than one pixel.
 constexpr double kRatioTolerance = 1e-6;
-// This is the relative precision of the end of the widths that a renderer clamps.
+// This is the relative precision for the width at which a renderer begins to clamp.
 constexpr double kWidthPrecision = 2e-3;
-// Bisection stops here: a knee below 2^-20 of the range has no practical effect.
+// Bisection ends after this many halvings, because a knee below 2^-20 of the range has no practical effect.
 constexpr int kMostHalvings = 20;
 
-// Returns the tolerance for a quotient of sums, like picture_tolerance.
+// Returns the tolerance for a quotient of sums. It is at least kRatioTolerance, and larger for imprecise
+// renderers.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
 double brightest(const Radiances& picture) { return *std::max_element(picture.begin(), picture.end()); }
@@ -89,8 +90,8 @@ class SpecularProbe {
     return picture_taker_.take(model_, RoleValues{alpha, specular, 0.0});
   }
 
-  // Returns true if pictures are black at specular 0, or at index 1. It returns false if the range does not
-  // begin there, because the answer is then unknown.
+  // Returns true if pictures are black at specular 0, or at index 1. Returns false if the range does not
+  // begin there, because nobody then knows.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
     return std::all_of(widths_.begin(), widths_.end(),
@@ -104,8 +105,8 @@ class SpecularProbe {
     return worst;
   }
 
-  // Returns how far pictures are from affine in F0, for a model whose specular is an index of refraction. It
-  // compares pictures in the middle of the range of indices, and in the middle of the range of F0.
+  // Returns how far pictures are from affine in F0, if the specular of the model is an index of refraction.
+  // Compares the pictures in the middle of the range of indices, and in the middle of the range of F0.
   double ior_deviation() const {
     if (range_.min < 1.0) return 1.0;
     const double low = normal_reflectance(range_.min), high = normal_reflectance(range_.max);
@@ -120,7 +121,8 @@ class SpecularProbe {
     return worst;
   }
 
-  // Returns how far a picture lies along the line from `low` to `high`, or nothing if it lies elsewhere.
+  // Returns the place of a picture on the line from `low` to `high`, as a fraction, or nothing if it is not
+  // on the line.
   std::optional<double> share(const WidthProbe& probe, double specular) const {
     const Radiances picture = take(probe.alpha, specular);
     double product = 0.0, power = 0.0;
@@ -135,7 +137,8 @@ class SpecularProbe {
     return product / power;
   }
 
-  // Returns the knee at one width. A picture below determines it, and pictures on both sides confirm it.
+  // Returns the knee at one width. It is computed from a picture below the knee, and confirmed by pictures on
+  // both sides.
   std::optional<double> knee_at(const WidthProbe& probe) const {
     double step = 0.5 * (range_.max - range_.min);
     std::optional<double> reached = share(probe, range_.min + step);
@@ -145,7 +148,7 @@ class SpecularProbe {
       reached = share(probe, range_.min + step);
     }
     if (!reached || !(*reached > 0.0)) return std::nullopt;
-    const double length = step / *reached;  // from the start of the range to the knee
+    const double length = step / *reached;  // distance from the start of the range to the knee
     for (const double distance :
          {0.3 * length, 0.97 * length, 1.03 * length, 0.5 * (length + range_.max - range_.min)}) {
       if (range_.min + distance > range_.max) return std::nullopt;
@@ -185,8 +188,8 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
 }
 
 Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& model, const Range& alphas) {
-  // The peak is proportional to 1 / alpha^2, so it changes by twice the step unless the renderer clamps the
-  // width.
+  // The peak is proportional to 1 / alpha^2. If the renderer does not clamp the width, the peak changes by
+  // twice the step.
   const double step = 1.0 + std::max(kWidthPrecision, 4.0 * picture_tolerance(model));
   if (!(alphas.max > step * step * alphas.min)) return alphas;
   const double full = model.parameter(ParameterRole::kSpecular).range.max;
@@ -196,7 +199,8 @@ Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& mo
     if (is_black(here) || is_black(nearby)) return false;
     return line_deviation(nearby, here, 0.0, here) > picture_tolerance(model);
   };
-  // Bisects from a clamped end towards a width that is not clamped: the middle, or otherwise the other end.
+  // Bisects between an end that is clamped and a width that is not. This is the middle, or otherwise the
+  // other end.
   const double middle = std::sqrt(alphas.min * alphas.max);
   const auto end = [&](double clamped, double other) {
     const double inwards = clamped < other ? step : 1.0 / step;

@@ -1,5 +1,5 @@
-// This file finds from a model's pictures what its parameters do: the law of specular, whether diffuse adds
-// to the highlight, and how strong its light is relative to another renderer's.
+// This file finds out from a model's pictures what its parameters do. It finds the law of specular, whether
+// diffuse adds to the highlight, and how strong the model's light is relative to another renderer's.
 #pragma once
 
 #include "measure/picture_taker.hpp"
@@ -7,8 +7,9 @@
 
 namespace remap {
 
-// Renders `model` at three widths within `alphas`, with three values over its whole specular range each, and
-// at a few more if it is not affine. Throws kInput if the picture at full specular is black.
+// Renders `model` at three widths within `alphas`. Renders three values over the whole range of specular at
+// each width, and a few more if the model is not affine. Throws kInput if the picture at full specular is
+// black.
 SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDescription& model,
                                 const Range& alphas);
 
@@ -26,15 +27,15 @@ bool probe_diffuse(const PictureTaker& picture_taker, const ModelDescription& mo
 
 // A DiffuseMatch holds the factor between the diffuse parameters of two models that gives the same diffuse
 // light, by least squares. It also holds the RMS of the remaining difference, relative to the source. The
-// diffuse picture is the difference of two pictures, so it contains no Fresnel rim. This is the first stage
-// of the two-stage match (section 3.1), and its ratio also matches the irradiance (section 4). A scale that
-// cannot be distinguished from 1 in float pictures is 1.
+// diffuse picture is the difference of two pictures, so it does not contain the Fresnel rim. This match is
+// the first stage of the two-stage match (section 3.1), and its ratio also matches the irradiance (section
+// 4). A scale is 1 if float pictures cannot distinguish it from 1.
 struct DiffuseMatch {
   double scale = 1.0;
   double error = 0.0;
 };
-// Returns true if match_diffuse can compare the light of two models. If one has no diffuse parameter, their
-// light is assumed equal.
+// Returns true if match_diffuse() can compare the light of two models. If one of them has no diffuse
+// parameter, remapc assumes equal light.
 bool light_matched(const ModelDescription& source, const ModelDescription& target);
 
 DiffuseMatch match_diffuse(const PictureTaker& picture_taker, const ModelDescription& source,

@@ -6,7 +6,7 @@ namespace remap {
 namespace {
 
 constexpr int kWidthDigits = 4;
-constexpr int kLimitDigits = 10;  // the rows of a table have as many digits
+constexpr int kLimitDigits = 10;  // as many digits as the rows of a table
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 

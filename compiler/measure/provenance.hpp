@@ -1,4 +1,4 @@
-// This file writes the comments of a table that record how it was made, so that it can be remade.
+// This file writes the comments of a table that record how it was made, so that anybody can make it again.
 #pragma once
 
 #include <string>
@@ -22,14 +22,14 @@ void add_limits(const Limits& limits, Comments* comments);
 // Adds the widths of one side that change its pictures, `effective`, if some of the widths `all` do not.
 void add_widths(const std::string& role, const Range& all, const Range& effective, Comments* comments);
 
-// Adds the noise of one side and how many pictures are averaged, if the noise was measured.
+// Adds the noise of one side and the number of pictures that are averaged, if the noise was measured.
 void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
                Comments* comments);
 
 // Adds the renderer's version and how pictures were compared.
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
 
-// Adds the factor between the lights, and that it was accepted if this was needed.
+// Adds the factor between the lights. If a user had to accept it, adds this, too.
 void add_light_scale(const LightMatch& match, Comments* comments);
 
 void add_resolution(const PairOptions& options, Comments* comments);

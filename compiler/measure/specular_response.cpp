@@ -11,8 +11,8 @@ namespace remap {
 
 namespace {
 
-// Below this fraction of the range the derivative by specular is evaluated at this fraction. A root has an
-// infinite derivative at 0, where pictures composed of roots hold only rounding errors.
+// Below this fraction of the range, the derivative by specular is the one at this fraction. A root has an
+// infinite derivative at 0, where pictures made of roots contain only rounding errors.
 constexpr double kLeastShare = 1e-4;
 
 }  // namespace

@@ -15,7 +15,7 @@ enum class SpecularLaw {
   kAffine,        // base + specular * slope: F0 with Schlick's Fresnel
   kIor,           // affine in F0 = ((ior - 1) / (ior + 1))^2 (Sztrajman et al. 2019, equation 1)
   kClamped,       // base + specular * slope up to a knee, constant beyond
-  kOther,         // none of these; the canonical coordinate is the parameter itself
+  kOther,         // no such law; the canonical coordinate is the parameter itself
 };
 
 // Returns `proportional`, `affine`, `ior`, `clamped` or `other`.
@@ -23,21 +23,23 @@ std::string_view law_name(SpecularLaw law);
 
 struct SpecularResponse {
   SpecularLaw law = SpecularLaw::kOther;
-  bool black_base = false;  // the picture is black where the canonical specular is 0
+  bool black_base = false;  // true if the picture is black at canonical specular 0
   double knee = 0.0;        // for kClamped, in the parameter's own unit
   double residual =
-      0.0;  // largest deviation from the law (kOther: from affine), relative to the brightest pixel
+      0.0;  // largest deviation from the law, or for kOther from affine, relative to the brightest pixel
 
   bool affine() const { return law != SpecularLaw::kOther; }
   bool proportional() const { return affine() && black_base; }
 
-  // Convert the parameter to the canonical coordinate and back: F0 for kIor, otherwise the parameter itself.
+  // Convert the parameter to the canonical coordinate, and a coordinate to the parameter. For kIor, the
+  // coordinate is F0, otherwise the parameter itself.
   double canonical(double own) const;
   double native(double canonical) const;
 };
 
-// The following types describe how the pictures of a model at one width depend on specular, whatever the law.
-// They are combinations of a few pictures whose weights are polynomials, so a match handles only polynomials.
+// The following types describe how the pictures of a model at one width depend on specular, whatever its law.
+// Every picture is a combination of a few pictures, and the weights are polynomials. So a match handles only
+// polynomials.
 
 // A SpecularCoordinate is the variable of the weight polynomials.
 enum class SpecularCoordinate {
@@ -46,25 +48,26 @@ enum class SpecularCoordinate {
   kRoot,      // the root of the fraction of the range, mapped to -1 to 1; fits exact Fresnel
 };
 
-// A SpecularFamily is picture(specular) = sum over k of weights[k](coordinate(specular)) * picture k.
+// A SpecularFamily gives pictures: picture(specular) = sum over k of weights[k](coordinate(specular)) *
+// picture k.
 struct SpecularFamily {
-  Range range;  // canonical speculars for which it holds
+  Range range;  // canonical speculars for which the formula holds
   SpecularCoordinate coordinate_kind = SpecularCoordinate::kSpecular;
-  std::vector<double> speculars;  // one for each picture; take_family chooses them for an affine family
-  std::vector<std::vector<double>> weights;  // one polynomial for each picture, ascending powers
+  std::vector<double> speculars;  // one for each picture; for an affine family, take_family() chooses
+  std::vector<std::vector<double>> weights;  // one polynomial for each picture, with rising powers
 
   std::size_t picture_count() const { return weights.size(); }
   double coordinate(double specular) const;
   double specular(double coordinate) const;  // canonical, clamped to the range
   Range coordinate_range() const;
 
-  // Returns the weights of the pictures at canonical `specular`, or their derivatives by it. At the lower end
-  // of the range a root has no derivative, so the derivative at a point close by is returned.
+  // Returns the weights of the pictures at canonical `specular`, or their derivatives by it. A root has no
+  // derivative at the lower end of the range, so the derivative at a point close to the end is returned.
   std::vector<double> weights_at(double specular) const;
   std::vector<double> slopes_at(double specular) const;
 };
 
-// Makes the family base + specular * slope, or specular * slope for a black base.
+// Returns the family base + specular * slope. If the base is black, returns specular * slope.
 SpecularFamily affine_family(const Range& range, bool black_base);
 
 // Returns the sum of `pictures` times `weights`, in double precision to keep each pixel's relative precision.

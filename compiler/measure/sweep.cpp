@@ -22,14 +22,15 @@
 namespace remap {
 namespace {
 
-// This is half of the rows that a table may have to be read again. Rows at boundaries of regimes are added.
+// This is half of the rows that a table may have when it is read, because rows at the ends of regimes are
+// added.
 constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // This resolution suffices, because the law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 // smallest probed alpha, or the model's least alpha if that is larger
 constexpr double kLeastProbedAlpha = 0.1;
-// The spheres of this many widths are compared, spread over the widths of a table. Each uses the usable row
-// whose specular1 is closest to half of the source's range.
+// The spheres of this many widths of a table are compared. For each of these widths, the row is used whose
+// specular1 is closest to half of the source's range.
 constexpr std::size_t kComparedSpheres = 8;
 
 std::vector<SampleBlock> blocks_of(const std::vector<MappedTexel>& samples) {
@@ -81,10 +82,10 @@ void require_speculars(const SweepOptions& options, const ProbedModel& source) {
                                          ")");
 }
 
-// Pictures are floats: digits beyond the ninth carry no information.
+// Pictures are floats, so digits after the ninth have no meaning.
 double rounded_ratio(double ratio) { return ratio >= 1e-3 ? std::round(ratio * 1e9) / 1e9 : ratio; }
 
-// Matching is accurate to about 1e-7; more digits would only enlarge the table.
+// Matches are accurate to about 1e-7, so more digits would only enlarge the table.
 std::vector<TableRow> rounded(std::vector<TableRow> rows) {
   constexpr int kDigits = 10, kErrorDigits = 6;
   for (TableRow& row : rows) {
@@ -153,7 +154,8 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   if (searched.min > wanted.min) responsive.alpha.min = searched.min;
   if (searched.max < wanted.max) responsive.alpha.max = searched.max;
   const Range probed{std::max(searched.min, alphas.min), searched.max};
-  // These are not computed inside the aggregate: gcc 12 destroys members twice if a later one throws.
+  // These are not computed inside the aggregate. If a later member throws, gcc 12 destroys earlier members
+  // twice.
   const SpecularResponse source_law = probe_specular(picture_taker, source, alphas);
   const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =
@@ -194,8 +196,8 @@ std::vector<const TableRow*> compared_rows(const SweepSetup& setup, const std::v
   return spread;
 }
 
-// Returns the exposure at which the brightest point of a white diffuse sphere is 1. Without diffuse it is
-// computed for an albedo of 1, lit at right angles from the distance of the light.
+// Returns the exposure that makes the brightest point of a white diffuse sphere 1. Without diffuse, computes
+// it for an albedo of 1 that is lit at right angles from the distance of the light.
 double white_exposure(const SweepSetup& setup) {
   if (!setup.target.model.has(ParameterRole::kDiffuse)) {
     const double distance = setup.options.objective.lights.front().distance - 1.0;
@@ -213,9 +215,8 @@ double white_exposure(const SweepSetup& setup) {
 }
 
 // Returns the comment kSpheresComment of a table, by rising width: `0.1 0.998, 0.5 0.97`. It holds the
-// structural similarity of the source's sphere and its match as a display shows them. Spheres are lit by the
-// first light of the objective, have no diffuse, and are exposed so that the brightest point of a white
-// diffuse sphere would be white.
+// structural similarity between the source's sphere and the matched sphere, as a display shows them. The
+// first light of the objective lights both. They have no diffuse, and the exposure of white_exposure().
 std::string spheres_text(const SweepSetup& setup, const std::vector<TableRow>& rows) {
   const double exposure = white_exposure(setup);
   const int side = setup.options.resolution;

@@ -13,13 +13,13 @@
 
 namespace remap {
 
-// Returns uniform samples, rounded to nine digits: `alpha_count` widths over `alphas`, both ends included,
-// times `specular_count` values over `speculars`. A lower end of 0 is omitted, because nothing can be matched
-// there. The paper uses 30 x 30 (section 5.2).
+// Returns a grid of samples, rounded to nine digits. It has `alpha_count` widths over `alphas`, both ends
+// included, and for each width `specular_count` values over `speculars`. A lower end of 0 is omitted, because
+// nothing can be matched there. The paper uses 30 x 30 (section 5.2).
 std::vector<MappedTexel> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                                       std::size_t specular_count);
 
-// Describes the same grid in words, for SweepOptions::sampling.
+// Describes this grid in words, for SweepOptions::sampling.
 std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                       std::size_t specular_count);
 
@@ -29,10 +29,10 @@ SpecularResponse specular_response(const Renderer& renderer, const ModelDescript
 // Returns the range of canonical speculars that `model` accepts, by the law of specular_response().
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
-// Matches every sample. With two stages, width and specular come from pictures without diffuse, and then
-// diffuse is matched separately. With one stage, all three are matched at once from kFixedGuess
-// (joint_match.hpp). With three, all are matched at once from the result of two stages. If the two models'
-// light differs by a factor, the source's pictures are first multiplied by it (section 4). The table does not
+// Matches every sample. With two stages, width and specular come from pictures without diffuse, and diffuse
+// is matched afterwards. With one stage, all three are matched at once, from kFixedGuess (joint_match.hpp).
+// With three stages, all are matched at once, from the result of two stages. If the light of the two models
+// differs by a factor, the source's pictures are first multiplied by it (section 4). The table does not
 // depend on the number of jobs. Throws kUsage for unknown models and samples out of range, kNumeric if a
 // search fails, and the renderer's errors.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution);

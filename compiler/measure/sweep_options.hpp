@@ -23,7 +23,7 @@ struct PairOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
-  bool accept_light = false;  // continue even if require_light() (table/light.hpp) refuses
+  bool accept_light = false;  // continue even if require_light() (table/light.hpp) would throw
 };
 
 // A SweepOptions holds the settings of a sweep. Every field is recorded in the table's comments.

@@ -9,20 +9,20 @@
 namespace remap {
 namespace {
 
-// Steps at the upper end are narrower by this factor. All nodes of an interpolation are on one side there,
-// which multiplies its error by about 40. Steps a quarter as wide divide the error by 4^11.
+// Steps at the upper end are narrower by this factor. All nodes of an interpolation there are on one side,
+// which multiplies its error by about 40. A quarter of the step divides the error by 4^11.
 constexpr double kEdgeRefinement = 4.0;
 
 constexpr double kNarrowing = 4.0;
 
-// These set the grid of a target without a family.
+// This is the size of the grid for a target without a family.
 constexpr std::size_t kWidths = 14;
 constexpr std::size_t kSpeculars = 8;
 constexpr std::size_t kMostMinima = 3;
 
-// Returns widths that descend from the largest alpha. First comes a window of narrow steps, then full steps,
-// to the first width at or below the smallest alpha. It ends at the smallest alpha itself if the next step
-// would fall below `least`, the model's limit.
+// Returns widths in falling order, from the largest alpha. The first steps, as many as an interpolation
+// needs, are narrow. Full steps follow, to the first width at or below the smallest alpha. If this width
+// would be below `least`, the model's limit, the last width is the smallest alpha itself.
 std::vector<double> bank_alphas(const Range& alphas, double ratio, double least) {
   const double bottom = std::log(alphas.min), top = std::log(alphas.max), step = std::log(ratio);
   double narrow_step = step / kEdgeRefinement;
@@ -34,7 +34,7 @@ std::vector<double> bank_alphas(const Range& alphas, double ratio, double least)
     logs.push_back(logs.back() - (logs.size() <= kInterpolationNodes ? narrow_step : step));
   const bool below = std::exp(logs.back()) < least;
   if (below) {
-    // A node too close to its neighbour would multiply the noise of pictures.
+    // If two nodes were too close, the noise of pictures would grow.
     const double before_last = logs[logs.size() - 2];
     if (logs.size() > kInterpolationNodes && before_last - bottom < 0.5 * (before_last - logs.back()))
       logs.pop_back();

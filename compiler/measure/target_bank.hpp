@@ -1,6 +1,6 @@
 // This file holds the bank of target pictures. At each width of a geometric grid, the bank has the few
-// pictures whose combinations give all others of that width (SpecularFamily). A picture is rendered when a
-// search first needs it.
+// pictures whose combinations give all others of this width (SpecularFamily). A picture is rendered when a
+// search needs it for the first time.
 #pragma once
 
 #include <atomic>
@@ -17,27 +17,27 @@ namespace remap {
 // error of 1e-7 in alpha.
 inline constexpr double kBankRatio = 1.05;
 
-// Returns the widths of `target` to search for sources whose narrowest width is `narrowest`. They start at a
-// quarter of `narrowest`, because no pair of the hub differs by more than a factor of 2.
+// Returns the widths of `target` to search if the narrowest width of the source is `narrowest`. They begin at
+// a quarter of `narrowest`, because widths of two built-in models never differ by more than a factor of 2.
 Range searched_widths(const ModelDescription& target, double narrowest);
 
 class TargetBank {
  public:
   // Makes a bank for widths in `alphas`, clamped to the model's range. Neighbours are at most `ratio` apart,
-  // and the last two at most 1.5 times as far. They are closer at the upper end, where interpolation has
+  // and the last two at most 1.5 times as far. Widths are closer at the upper end, where interpolation has
   // nodes only on one side. `target` must have a family (ProbedModel::family).
   TargetBank(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas, double ratio);
 
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t node) const { return alphas_[node]; }
-  double log_step() const { return log_step_; }  // the largest step in log(alpha)
+  double log_step() const { return log_step_; }  // largest step in log(alpha)
   const SpecularFamily& family() const { return family_; }
 
   // Returns the pictures of a node (take_family). The first call renders and keeps them. Thread-safe.
   const std::vector<std::vector<float>>& pictures(std::size_t node) const;
 
-  // Renders the `nodes` that no other thread has started. Threads that need the same nodes then share the
-  // work instead of waiting for each other at each one.
+  // Renders those of the `nodes` that no other thread has started. Threads that need the same nodes share the
+  // work, and do not wait for each other at each node.
   void prepare(std::span<const std::size_t> nodes) const;
 
  private:
@@ -54,15 +54,15 @@ class TargetBank {
   mutable std::deque<Slot> slots_;
 };
 
-// A TargetGrid holds pictures of a target on a coarse grid of widths and speculars. They give a search its
-// starting points if the target has no family (ProbedModel::family).
+// A TargetGrid holds pictures of a target on a coarse grid of widths and speculars. If the target has no
+// family (ProbedModel::family), they give a search its starting points.
 class TargetGrid {
  public:
-  // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly; without diffuse.
+  // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly. Diffuse is 0.
   TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas);
 
-  // Returns at most three grid points, best first, at which the weighted squared difference from `source` is
-  // no larger than at their neighbours. The first call renders the pictures. Thread-safe.
+  // Returns at most three grid points, the best first. At each of them, the weighted squared difference from
+  // `source` is not larger than at its neighbours. The first call renders the pictures. Thread-safe.
   std::vector<RoleValues> minima(const std::vector<float>& source, const std::vector<float>& weights) const;
 
  private:

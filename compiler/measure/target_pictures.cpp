@@ -112,7 +112,7 @@ void BankPictures::add_at_width(std::span<const RoleValues> points, const std::v
                         {std::vector<float>(pixels), std::vector<float>(pixels),
                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}});
   }
-  // these blocks are used for all points
+  // the same blocks are used for all points
   std::vector<PixelBlock> interpolated(members), interpolated_rise(members);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);

@@ -1,5 +1,5 @@
-// This file gives the target's picture and its derivatives by each parameter, at any point, for a non-linear
-// match. They come from the bank if the target has one, otherwise from renders.
+// This file gives pictures of the target at any point, with derivatives by each parameter, for a non-linear
+// match. They are interpolated in the bank if the target has one, and otherwise rendered.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace remap {
 struct Coordinate {
   std::string name;     // empty for alpha, specular and diffuse
   Range range;          // a single value if the target has no such parameter
-  bool shared = false;  // one value for all color channels
+  bool shared = false;  // true if all color channels have one value
 };
 
 inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDiffuseCoordinate = 2;
@@ -24,7 +24,7 @@ inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDif
 // PictureTaker::take.
 struct PictureTangents {
   std::vector<float> picture;
-  std::vector<std::vector<float>> by;  // pictures that were not asked for are empty
+  std::vector<std::vector<float>> by;  // pictures that nobody requested are empty
 };
 
 class TargetPictures {
@@ -35,8 +35,8 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // Returns one picture for each of `points`. Successive points of one width are cheaper. `wanted` selects
-  // the coordinates by which the pictures are differentiated. Thread-safe.
+  // Returns one picture for each of `points`. It is faster if points of one width follow each other. `wanted`
+  // selects the coordinates for derivatives. Thread-safe.
   virtual std::vector<PictureTangents> at(const std::vector<RoleValues>& points,
                                           const std::vector<bool>& wanted) const = 0;
 
@@ -48,8 +48,8 @@ class TargetPictures {
   std::vector<Coordinate> coordinates_;
 };
 
-// A BankPictures holds pictures of a target whose diffuse adds to its specular (probe_diffuse), interpolated
-// between the nodes of the bank. Besides the bank they need two renders, for the diffuse picture.
+// A BankPictures interpolates pictures between the nodes of the bank. Diffuse of the target must add to its
+// specular (probe_diffuse). Besides the bank, it needs two renders for the diffuse picture.
 class BankPictures final : public TargetPictures {
  public:
   BankPictures(const PictureTaker& picture_taker, const ProbedModel& target, const TargetBank& bank);
@@ -89,8 +89,8 @@ struct MatchTarget : ProbedModel {
   std::unique_ptr<TargetPictures> pictures;  // null if no match is non-linear
 };
 
-// Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. It makes
-// pictures for non-linear matches if the target has no family, or for matches `with_diffuse`. `searched`
+// Finds how the pictures of `target` depend on its parameters, by renders at the widths `probed`. Makes
+// pictures for non-linear matches if the target has no family, or if matches are `with_diffuse`. `searched`
 // holds the widths of the match. `others` is as in RenderedPictures. If it is not empty, there is no bank.
 MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
                          const Range& probed, bool with_diffuse, const std::vector<std::string>& others = {});

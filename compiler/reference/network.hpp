@@ -1,6 +1,6 @@
-// This file holds fully connected networks, and their formula over any scalar. The interpreter uses the
-// formula with doubles, the proofs use it with Taylor models. A scalar needs +, -, * with itself and with
-// double, and the functions that are declared for double here.
+// This file holds fully connected networks, and their formula for any type of scalar. The interpreter uses it
+// with doubles, and proofs use it with Taylor models. A scalar needs +, -, * with itself and with double, and
+// the functions that are declared for double here.
 #pragma once
 
 #include <cmath>
@@ -13,12 +13,12 @@
 
 namespace remap {
 
-// A Scaling computes normalised = (t - offset) * scale. Here t = value, or t = value / (value + pole). The
-// pole spreads values near 0, where curves over alpha bend most.
+// A Scaling computes normalised = (t - offset) * scale, with t = value, or t = value / (value + pole). The
+// pole gives more room to values near 0, where curves over alpha bend most.
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0
-  double pole = 0.0;   // >= 0; with 0, t is the value; outputs have no pole
+  double pole = 0.0;   // at least 0; if 0, t is the value; outputs have no pole
   bool operator==(const Scaling&) const = default;
 };
 
@@ -30,8 +30,8 @@ inline std::string_view activation_name(Activation activation) { return name_of(
 // A Layer is outputs = weights inputs + biases.
 struct Layer {
   std::size_t input_count = 0;
-  std::vector<double> weights;  // one row of input_count per output
-  std::vector<double> biases;   // one per output
+  std::vector<double> weights;  // a row of input_count numbers for each output
+  std::vector<double> biases;   // one number for each output
   std::size_t output_count() const noexcept { return biases.size(); }
   bool operator==(const Layer&) const = default;
 };

@@ -1,6 +1,7 @@
-// This file converts whole materials between the two workflows, by every formula that is measured or ships,
-// texel by texel. Closed forms use floats. If products and sums are not fused, they give the same bits as the
-// generated header. Networks are interpreted in double precision, to test their headers.
+// This file converts whole materials between the two workflows, texel by texel. It has every formula that
+// remap measures or ships. Closed forms use floats. If products and sums are not fused, they give the same
+// bits as the generated header. Networks run in double precision, so that tests can compare headers with
+// them.
 #pragma once
 
 #include <array>
@@ -29,9 +30,11 @@ enum class ClosedFormula {
 inline constexpr NamedValues<ClosedFormula, 2> kMetallicMeans = {
     {{ClosedFormula::kEquation3, "plain"}, {ClosedFormula::kEquation3ByAlbedo, "albedo"}}};
 
-// A Projection finds the base color and metallic with the least difference in pictures, in closed form.
+// The following formulas convert from specular to metallic, which cannot express all specular materials.
+//
+// A Projection finds the base color and metallic whose pictures differ least, in closed form.
 struct Projection {
-  double prior = 0.0;  // >= 0 (kCleanPrior)
+  double prior = 0.0;  // at least 0 (kCleanPrior)
   bool operator==(const Projection&) const = default;
 };
 
@@ -54,7 +57,7 @@ std::string_view formula_name(const WorkflowFormula& formula);
 // Returns a description of the formula, for reports and headers.
 std::string formula_text(const WorkflowFormula& formula);
 
-// A WorkflowConversion converts whole materials. The formula determines the direction.
+// A WorkflowConversion converts whole materials. Its formula decides the direction.
 struct WorkflowConversion {
   SpecularWorkflow specular;
   MetallicWorkflow metallic;
@@ -70,8 +73,8 @@ struct WorkflowConversion {
 };
 
 // Throws kInput, beginning with `context`, if the conversion breaks one of these rules. The width is
-// roughness, glossiness or alpha. F0 and the prior are in their ranges. Khronos' solver requires scaled
-// diffuse on both sides, and F0 above 0. A network has 6 inputs and 4 outputs.
+// roughness, glossiness or alpha. F0 and the prior are in their ranges. Khronos' solver needs scaled diffuse
+// on both sides, and F0 above 0. A network has 6 inputs and 4 outputs.
 void require_valid(const WorkflowConversion& conversion, const std::string& context);
 
 // A MaterialParameter is a parameter of a material, with one row of texels per channel.
@@ -81,7 +84,8 @@ struct MaterialParameter {
   std::string meaning;
 };
 
-// Return the parameters in the order of the rows: diffuse, specular, width; or base_color, metallic, width.
+// Return the parameters in the order of the rows. These are diffuse, specular, width, or base_color,
+// metallic, width.
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion);
 std::vector<MaterialParameter> target_parameters(const WorkflowConversion& conversion);
 
@@ -95,9 +99,9 @@ struct MetallicMaterial {
   float width = 0.0f;
 };
 
-// Converts `count` texels. `in` and `out` have one row per channel, in the order of source_parameters() and
-// target_parameters(). An output row may equal an input row. Other rows must not overlap. Values outside [0,
-// 1] are clamped, and NaN makes the outputs that depend on it NaN. Returns the number of texels with such
+// Converts `count` texels. `in` and `out` have one row for each channel, in the order of source_parameters()
+// and target_parameters(). An output row may be an input row. Other rows must not overlap. Values outside of
+// [0, 1] are clamped. NaN makes the outputs that depend on it NaN. Returns the number of texels with such
 // values. Throws kUsage for a wrong number of rows, and the errors of require_valid().
 std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t count,
                              std::span<const float* const> in, std::span<float* const> out);
@@ -107,21 +111,22 @@ MetallicMaterial to_metallic(const WorkflowConversion& conversion, const Specula
 SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material);
 
 struct MetallicDiagnosis {
-  // This is the square root of the weighted squared error that remains, and 0 for an exact match. Pictures
-  // under natural light differ by about 0.42 times this value (root mean square of display values).
+  // This is the square root of the weighted squared error that remains, or 0 if the material is matched
+  // exactly. Under natural light, pictures differ by about 0.42 times this value (root mean square of display
+  // values).
   float residual = 0.0f;
-  // This is the range of metallic values, as a fraction of [0, 1], whose squared error (with the best base
-  // color for each) is within (1/255)^2 of the least one. If it is above 0.2, metallic is undetermined, which
-  // does not change the picture.
+  // This is how much metallic can vary, as a fraction of [0, 1], while the squared error (with the best base
+  // color) stays within (1/255)^2 of the smallest. Above 0.2, metallic is not reliable. This does not change
+  // the picture.
   float metallic_uncertainty = 0.0f;
-  // This is true if a parameter was outside [0, 1], or if a base color was outside by more than half a step
-  // of 8 bits.
+  // True if a parameter was outside of [0, 1], or if a base color was outside by more than half a step of 8
+  // bits.
   bool is_clamped = false;
 };
 
 // Diagnoses `result`, which may come from any method, as a conversion of `material`. Weights and errors are
-// as in the projection without its prior. NaN in the texel gives {NaN, NaN, true}. Throws the errors of
-// require_valid().
+// those of the projection without its prior. If the texel has NaN, returns {NaN, NaN, true}. Throws the
+// errors of require_valid().
 MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,
                            const MetallicMaterial& result);
 

@@ -1,5 +1,5 @@
-// This file renders the hub's models in the sweep scene, in double precision. It approximates only the
-// average over a pixel.
+// This file renders the built-in models in the sweep scene, in double precision. The only approximation is
+// the average over a pixel.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,8 +19,8 @@
 namespace remap {
 namespace {
 
-// Dielectrics range from no boundary to germanium in the infrared. Conductors range over the measured values
-// of visible light, including the 0 that a projection into a color space gives.
+// Dielectrics range from no boundary to germanium in the infrared. Conductors have the measured indices of
+// visible light. These include 0, which some measurements have after their conversion to a color space.
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
@@ -117,8 +117,8 @@ class BuiltinRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
  private:
-  // Returns the directions. They are kept, because they depend only on the scene, and a sweep uses few
-  // scenes.
+  // Returns the samples of a scene. They are kept, because they depend only on the scene, and a sweep uses
+  // few scenes.
   std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
 
   mutable std::mutex mutex_;

@@ -10,14 +10,14 @@
 namespace remap {
 namespace {
 
-// These words, in the order of ParameterRole, are used in messages and in the protocol.
+// These words are in the order of ParameterRole. Messages and the protocol use them.
 constexpr std::array<const char*, 6> kRoleNames = {"roughness",           "specular",   "diffuse",
                                                    "index of refraction", "extinction", "anything else"};
 constexpr std::array<std::string_view, 6> kRoleWords = {"roughness", "specular",   "diffuse",
                                                         "index",     "extinction", "other"};
 
-// Converts a width to the model's own parameter. At the ends of its range, rounding may move it out by one
-// ulp.
+// Converts alpha to the model's own parameter. If rounding gives a value just outside of the range, returns
+// the end of the range.
 double own_width(const ModelDescription& model, double alpha) {
   const Range range = model.parameter(ParameterRole::kRoughness).range;
   const double own = from_alpha(model.roughness, alpha);

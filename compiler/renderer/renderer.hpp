@@ -28,10 +28,10 @@ inline constexpr std::array kParameterRoles = {ParameterRole::kRoughness,  Param
 std::string_view role_word(ParameterRole role);
 
 struct ParameterDescription {
-  std::string name;  // the model's own name for it: alpha, exponent, specular, f0, ior, eta, k, diffuse
+  std::string name;  // as the model calls it: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
   Range range;            // values the renderer accepts, in the parameter's own unit
-  double standard = 0.0;  // the value of a kOther parameter
+  double standard = 0.0;  // the value of a kOther parameter that nobody sets
   bool grey = false;      // takes one value and refuses three
 };
 
@@ -40,14 +40,14 @@ struct ModelDescription {
   RoughnessEncoding roughness = RoughnessEncoding::kAlpha;
   Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
-  bool noise = false;        // the picture depends on the seed
-  bool is_external = false;  // another program renders it: pictures are expensive, and its claims are checked
+  bool noise = false;        // true if the picture depends on the seed
+  bool is_external = false;  // another program renders it, so pictures take long and its claims are checked
   double precision = 0.0;    // relative error of a pixel; 0 if it is no larger than the error of a float
 
   bool has(ParameterRole role) const;
   // Returns the parameter. Throws kUsage if the model has no parameter of that role.
   const ParameterDescription& parameter(ParameterRole role) const;
-  // Returns the parameter. Throws kUsage with the closest known name.
+  // Returns the parameter. For an unknown name, throws kUsage with the closest name.
   const ParameterDescription& parameter(const std::string& parameter_name) const;
 };
 
@@ -67,7 +67,7 @@ class Renderer {
   virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;
-  // Returns the description of one model. Throws kUsage for an unknown name, with the closest.
+  // Returns the description of one model. For an unknown name, throws kUsage with the closest name.
   virtual ModelDescription model(const std::string& name) const;
 
   // Renders the sphere with `material` in `scene`, as radiance: one channel if every parameter is grey,

@@ -13,8 +13,8 @@ constexpr int kResolution = 128;
 // At this width the highlight covers about a hundred pixels.
 constexpr double kNarrowWidth = 0.3;
 
-// Returns the noise of one picture, from two with different seeds. The difference has sqrt(2) times its
-// error.
+// Returns the noise of one picture, computed from two pictures with different seeds. Their difference has
+// sqrt(2) times the error of one.
 Noise difference(const Image& a, const Image& b) {
   if (a.values.size() != b.values.size()) return {};  // PictureTaker reports pictures of the wrong size
   double apart = 0.0, power = 0.0, largest = 0.0, brightest = 0.0;

@@ -1,4 +1,5 @@
-// This file averages the pictures of noisy renderers over seeds, after measuring how noisy they are.
+// This file averages the pictures of noisy renderers over several seeds. It first measures how noisy they
+// are.
 #pragma once
 
 #include <map>
@@ -21,14 +22,14 @@ inline constexpr double kSteadyNoise = 0.01;
 // Averaging more pictures than this makes a sweep too slow.
 inline constexpr int kMostSeeds = 64;
 
-// A SteadyRenderer renders like `inner`, but averages the pictures of some models over as many seeds as their
-// noise requires. It measures the noise, because descriptions may be wrong. Pictures of other models are
-// returned unchanged.
+// A SteadyRenderer renders like `inner`. It measures the noise of external models, because descriptions may
+// be wrong, and averages the pictures of noisy models over as many seeds as needed. Pictures of other models
+// are returned unchanged.
 class SteadyRenderer final : public Renderer {
  public:
-  // Measures the noise of the external models among `models` under `light`, by two pictures of 128^2 at two
-  // widths each. Throws kInput if more than kMostSeeds pictures would be needed, and kUsage for unknown
-  // models.
+  // Measures the noise of the external models among `models` under `light`. For each model, compares two
+  // pictures of 128 x 128 pixels at each of two widths. Throws kInput if more than kMostSeeds pictures would
+  // be needed, and kUsage for unknown models.
   SteadyRenderer(const Renderer& inner, const std::vector<std::string>& models, const Light& light);
 
   // Returns the noise of a model that was measured.

@@ -15,13 +15,14 @@ inline constexpr float kSheetBackground = 0.12f;
 // Returns a dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
 Image contact_sheet(std::size_t rows, std::size_t columns, int side);
 
-// Returns the side of a cell for pictures of `resolution` pixels, with a margin of a twentieth around each.
+// Returns the side of a cell for pictures of `resolution` pixels. A cell has a margin of a twentieth around
+// its picture.
 int cell_side(int resolution);
 
-// Returns pixels of a square picture as pixels of its cell, both as row-major indices.
+// Returns pixels of a square picture as pixels of a cell. Both are row-major indices.
 std::vector<std::uint32_t> pixels_of_cell(std::vector<std::uint32_t> pixels, int resolution);
 
-// Copies a picture to a cell of the sheet. `pixels` are row-major indices into the square, and `colors` three
+// Copies a picture to a cell of the sheet. `pixels` are row-major indices into the square. `colors` has three
 // display values for each of them.
 void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
                    std::span<const std::uint32_t> pixels, std::span<const float> colors);

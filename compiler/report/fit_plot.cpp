@@ -28,7 +28,7 @@ constexpr double kLeastError = 1e-8;
 
 std::string shown_error(double error) { return number_text(std::max(std::fabs(error), kLeastError)); }
 
-// Chooses `count` values, evenly by rank, including the least and the largest.
+// Chooses `count` values, evenly by their rank. The smallest and the largest are among them.
 std::vector<double> spread(const std::set<double>& values, std::size_t count) {
   const std::vector<double> sorted(values.begin(), values.end());
   std::vector<double> chosen;
@@ -127,9 +127,9 @@ class Plot {
          << " noenhanced\nset ylabel " << gnuplot_text(y) << " noenhanced\n";
   }
 
-  // Plots curves. The first line is the widest, so that overlapping lines stay visible. The rows are drawn
-  // last: `rows` is a data block whose column `y` is drawn over `x`. Its column `limit` marks the rows at a
-  // limit of the target.
+  // Plots curves. The first line is the widest, so that lines below others stay visible. The rows are drawn
+  // last, from the data block `rows`: column `y` over column `x`. Column `limit` marks rows whose target is
+  // at a limit.
   void plot_curves(const std::string& block, const std::string& rows, int x, int y, int limit) {
     // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
@@ -184,7 +184,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // first of the fits, which all have the same models, table and domain
+  const Fit& fit_;  // the first fit; all have the same models, table and domain
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel

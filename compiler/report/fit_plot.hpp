@@ -1,4 +1,5 @@
-// This file plots a table and its fits: both target parameters with the curves and errors of the fits.
+// This file plots a table and its fits. A plot shows both target parameters, with the curves and errors of
+// the fits.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 namespace remap {
 
-// Checks before a long computation that its result can be plotted. Throws kUsage if `path` does not end with
+// Checks that a result can be plotted, before a long computation. Throws kUsage if `path` does not end with
 // .svg or .png, and kOutput if its folder cannot be created or gnuplot is missing.
 void require_plot(const std::filesystem::path& path);
 

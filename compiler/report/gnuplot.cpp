@@ -28,7 +28,7 @@ int run(const std::string& argument, const std::string& output, const std::strin
   return WEXITSTATUS(status);
 }
 
-// Returns the first line of gnuplot's message that states the error. The lines before it only show the place.
+// Returns the line of gnuplot's message that states the error. The lines before it only show the place.
 std::string complaint(const std::string& text) {
   std::size_t begin = 0;
   while (begin < text.size()) {

@@ -18,12 +18,12 @@ inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00",
 // a light grid.
 std::string plot_style(int width, int height, bool is_png = false);
 
-// Quotes `text` for a script so that no character has a special meaning for gnuplot. In double quotes gnuplot
-// would run commands between backquotes.
+// Quotes `text` for a script, so that no character has a special meaning for gnuplot. In double quotes,
+// gnuplot would run a command between backquotes.
 std::string gnuplot_text(const std::string& text);
 
 // Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if
-// gnuplot cannot be started or fails, with the first line of its error message.
+// gnuplot cannot be started or fails. The message has the first line of gnuplot's error.
 void write_drawing(const std::filesystem::path& path, const std::string& script);
 
 }  // namespace remap

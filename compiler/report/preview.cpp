@@ -83,8 +83,8 @@ std::size_t inner_pixel(std::size_t pixel, std::size_t width) {
   return inner(pixel / width) * width + inner(pixel % width);
 }
 
-// Returns a picture whose channel c comes from the material `first + c`, or from `first` if the specular is
-// grey. A pixel of the rim whose center misses the sphere looks like its inner neighbour.
+// Returns a picture whose channel c comes from material `first + c`, or from `first` if the specular is grey.
+// If the center of a pixel at the rim misses the sphere, the pixel gets the color of its inner neighbour.
 CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first, std::size_t material_count,
                                int samples) {
   const auto width = static_cast<std::size_t>(pictures.resolution());
@@ -103,7 +103,7 @@ CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first
   return picture;
 }
 
-// Returns pixels that show the shape at least in part.
+// Returns pixels of which the shape covers at least a part.
 std::vector<std::uint32_t> covered_pixels(const CoveredPicture& picture) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < picture.coverage.size(); ++i)
@@ -261,7 +261,7 @@ std::string short_list(std::vector<double> values) {
   return listed(values);
 }
 
-// Returns the scene, and the numbers of a source and of its conversion.
+// Returns a label with the scene, the numbers of the source, and the converted numbers.
 std::string row_label(const std::vector<double>& specular, const PreviewFigure& figure) {
   return figure.light + ", " + shape_name(figure.shape) + "\nalpha " + short_number(figure.alpha) + "\n-> " +
          short_number(figure.target_alpha) + "\nspecular " + short_list(specular) + "\n-> " +

@@ -1,6 +1,6 @@
-// This file previews a conversion on several shapes. Under each light it shows the source, the target with
-// the numbers of the source, and the target with converted numbers. Alphas may differ from the sweep's.
-// Copying the numbers is the alternative to a conversion.
+// This file previews a conversion on several shapes. Under each light, it shows the source, the target with
+// the numbers of the source, and the target with converted numbers. Without a conversion, people copy the
+// numbers. Alphas need not be those of the sweep.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ struct PreviewLight {
 // and kInput like load_environment.
 PreviewLight preview_light(const std::string& word, double distance, double exposure);
 
-// Returns `studio`, which lights spheres of built-in models, or `45` for other models or without a sphere.
+// Returns `studio` if the models are built-in and a sphere is shown, because `studio` lights only such
+// spheres. Otherwise, returns `45`.
 std::string default_light(const Fit& fit, const std::vector<Shape>& shapes);
 
 struct PreviewOptions {
@@ -41,7 +42,7 @@ struct PreviewOptions {
                                  // half of the domain
   double diffuse = 0.0;          // reflectance of a Lambertian lobe that all pictures have, 0 to 1
   int resolution = 160;          // width and height of each picture, pixels
-  // N x N samples in each pixel; under an environment, they only find how much of the pixel the sphere covers
+  // N x N samples in each pixel; under an environment, they only find how much of a pixel the sphere covers
   int samples_per_axis = 2;
   int directions = 64;  // samples of an environment's light for each pixel
   std::function<void(double share)>
@@ -70,10 +71,10 @@ struct Preview {
 // Returns four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
 std::vector<double> preview_alphas(const Domain& domain);
 
-// Makes a preview. The source's pictures are multiplied by the factor between the light of the two renderers
-// from the fit's table. Throws kUsage for models that `renderer` lacks, and for values out of range. Also
-// throws it for an environment without the sphere or with models that are not lobes of the built-in renderer
-// with a scale or F0, for a diffuse reflectance that a model lacks, and without lights or shapes.
+// Makes a preview. The fit's table has the factor between the light of the two renderers, by which the
+// source's pictures are multiplied. Throws kUsage for models that `renderer` lacks, for values out of range,
+// for a diffuse reflectance that a model lacks, and without lights or shapes. Also throws kUsage for an
+// environment without the sphere, or with models that are not built-in lobes with a scale or F0.
 Preview make_preview(const Renderer& renderer, const Fit& fit, const PreviewOptions& options);
 
 }  // namespace remap

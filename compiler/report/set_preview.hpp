@@ -1,5 +1,5 @@
-// This file previews the conversion of texture sets and glTF files: their maps on a ball in the source's
-// shading, then in the target's shading with the same numbers and with converted numbers.
+// This file previews the conversion of texture sets. It shows the maps on a ball in the source's shading.
+// Then it shows the ball in the target's shading, with the same numbers and with converted numbers.
 #pragma once
 
 #include <functional>
@@ -33,15 +33,15 @@ struct SetFigure {
 
 struct SetPreview {
   std::vector<SetFigure> figures;
-  std::vector<std::string> notes;  // models that another model of the built-in renderer stands for
+  std::vector<std::string> notes;  // which models are shown by another built-in model
   std::string copied_title;        // what the middle column shows
   Image sheet;  // a row for each material; columns: source, numbers copied, numbers converted
   SheetLabels labels;
 };
 
-// Previews the first materials of a plan, whose maps are scaled down to the size of the picture
-// (job_looks.hpp). Normal maps and opacity are not shown. Throws kInput if a map cannot be read, and kUsage
-// if the plan has nothing to convert.
+// Previews the first sets of a plan. Their maps are scaled down to the size of the picture. If the built-in
+// renderer lacks a model, it shows the model that a shipped converter matches best to it. Normal maps and
+// opacity are not shown. Throws kInput if a map cannot be read, and kUsage if the plan has no texture set.
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options);
 
 }  // namespace remap

@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-// Both are in dots of the font: the distance between lines, and the margin on each side of a text.
+// These are in dots of the font: the distance between lines, and the margin on each side of a text.
 constexpr int kLineHeight = 11, kTextMargin = 5;
 constexpr int kCellOfDots = 128;  // dots along the side of a cell
 constexpr int kRowDots = 170;     // longest label of a row, in dots
@@ -22,7 +22,7 @@ using TextLines = std::vector<std::string>;
 
 int width_in_dots(std::string line) { return stb_easy_font_width(line.data()); }
 
-// Returns the place of the last space that leaves at most `room` dots before it, or npos if there is none.
+// Returns the place of the last space with at most `room` dots before it, or npos if there is none.
 std::size_t line_break(const std::string& line, int room) {
   std::size_t space = line.rfind(' ');
   while (space != std::string::npos && width_in_dots(line.substr(0, space)) > room)
@@ -30,7 +30,7 @@ std::size_t line_break(const std::string& line, int room) {
   return space;
 }
 
-// Returns the lines of a label, at most `most` and each at most `room` dots wide.
+// Returns the lines of a label. There are at most `most` lines, and each is at most `room` dots wide.
 TextLines shown_lines(const std::string& label, int room, int most) {
   TextLines lines = parts_between(label, '\n');
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -65,7 +65,7 @@ void draw_line(std::string line, int x, int y, int dot, Image* picture) {
     float x = 0.0f, y = 0.0f, z = 0.0f;
     std::array<unsigned char, 4> color{};
   };
-  constexpr std::size_t kBarsAtMost = 16;  // limit for a letter
+  constexpr std::size_t kBarsAtMost = 16;  // largest number of bars of a letter
   std::vector<std::array<Corner, 4>> bars(kBarsAtMost * line.size());
   bars.resize(static_cast<std::size_t>(stb_easy_font_print(0.0f, 0.0f, line.data(), nullptr, bars.data(),
                                                            static_cast<int>(sizeof(bars[0]) * bars.size()))));

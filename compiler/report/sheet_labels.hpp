@@ -14,9 +14,9 @@ struct SheetLabels {
   std::vector<std::string> columns, rows;
 };
 
-// Returns the sheet of equal cells with column labels above it and row labels at its left. A line that is too
-// long is broken at a space, and a long word is cut to end with "...". Lines without room are left out. A
-// character that is not ASCII is shown as "?".
+// Returns the sheet with column labels above its equal cells and row labels at the left. A line that is too
+// long is broken at a space. A word that is too long is cut, and ends with "...". Lines without room are left
+// out. A character that is not ASCII is shown as "?".
 Image labelled(const Image& sheet, const SheetLabels& labels);
 
 }  // namespace remap

@@ -74,7 +74,7 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
       const std::array<double, 2> place = place_of(layer.positions, i);
       for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], place[k]);  // comparisons with NaN change neither
+        low[k] = std::min(low[k], place[k]);  // comparisons with NaN change neither `low` nor `high`
         high[k] = std::max(high[k], place[k]);
       }
     }
@@ -84,8 +84,8 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
           0.525 * std::max(height, width / 3.0)};
 }
 
-// Draws the layers `width` pixels wide, with the aspect ratio of the box. The second coordinate points up;
-// one-dimensional points are spread along it to be visible. Lines mark the zeros.
+// Draws the layers `width` pixels wide, with the aspect ratio of the box. The second coordinate points up. If
+// points have only one dimension, they are spread along it to be visible. Lines mark the zeros.
 Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
   const double scale = 0.5 * static_cast<double>(width) / box.half_width;
   Image picture =

@@ -1,5 +1,5 @@
-// This file reports a warp in pictures: both materials, their strokes and appearance spaces, and the result
-// (An et al. 2011, figure 1).
+// This file reports a warp in pictures. They show both materials, their strokes and appearance spaces, and
+// the result (An et al. 2011, figure 1).
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@
 
 namespace remap {
 
-// A WarpPictures holds pictures in display values. Longer sides of maps and widths of spaces are 512 pixels.
+// A WarpPictures holds pictures in display values. The longer side of a map, and the width of a space, is 512
+// pixels.
 struct WarpPictures {
   Image source, target, result;          // shaded by shaded_map()
   Image source_strokes, target_strokes;  // the dimmed maps with the strokes in their colors
@@ -36,7 +37,7 @@ struct WarpWords {
   std::size_t stroke_count = 0;
 };
 
-// Throws kUsage unless the name ends with .html.
+// Throws kUsage if the name does not end with .html.
 void require_report_path(const std::filesystem::path& path);
 
 // Writes one HTML file with embedded pictures. Throws the errors of require_report_path(), and kOutput.

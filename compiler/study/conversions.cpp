@@ -66,8 +66,8 @@ constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 // Pictures holds pictures of one material under each environment.
 using Pictures = std::vector<std::vector<float>>;
 
-// Returns the mean RMSE of a target with the pictures dark + specular * (bright - dark). `source` has
-// display values.
+// Returns the mean RMSE between `source` (display values) and a target with the pictures dark + specular *
+// (bright - dark).
 double mean_rmse(const Pictures& source, const Pictures& dark, const Pictures& bright, double specular) {
   double sum = 0.0;
   std::vector<float> shown;
@@ -88,7 +88,8 @@ double vertex(double before, double middle, double after) {
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
 }
 
-// Compares the source, material `first`, with the target's materials that follow it, at several widths.
+// Compares the source, which is material `first`, with the target's materials, which follow it in several
+// widths.
 Conversion best_of(const SpherePictures& pictures, std::span<const SphereMaterial> materials,
                    std::size_t first, std::size_t environment_count, const Conversion& start) {
   const auto pictures_of = [&](std::size_t material) {
@@ -101,7 +102,7 @@ Conversion best_of(const SpherePictures& pictures, std::span<const SphereMateria
   std::array<std::pair<double, double>, kWidths> optima;  // the best specular of each width, and its RMSE
   for (std::size_t i = 0; i < optima.size(); ++i) {
     const Pictures dark = pictures_of(first + 1 + 2 * i), bright = pictures_of(first + 2 + 2 * i);
-    // The error has one minimum over specular, because brightness increases with specular.
+    // The error has only one minimum over specular, because brightness rises with specular.
     constexpr int kSteps = 16;  // reach a precision of 5e-4
     optima[i] = golden_section(0.0, 1.0, kSteps,
                                [&](double specular) { return mean_rmse(source, dark, bright, specular); });
@@ -117,7 +118,7 @@ Conversion best_of(const SpherePictures& pictures, std::span<const SphereMateria
   return best;
 }
 
-// Appends the materials of one search: the source, then specular 0 and 1 at each alpha.
+// Adds the materials of one search: the source, then specular 0 and 1 at each alpha.
 void add_materials(const EnvironmentsOptions& options, const Conversion& start,
                    std::vector<SphereMaterial>* materials) {
   const StudyPair& pair = options.pairs[start.pair];

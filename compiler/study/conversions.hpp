@@ -1,6 +1,6 @@
 // This file holds the options of the environments study, and the target materials that each method computes.
-// It also finds the best materials: their pictures are most similar to the source's under given environments,
-// and no conversion of parameters can do better.
+// It also finds the best materials, whose pictures are the most similar to the source's under given
+// environments. No conversion of parameters can do better.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,7 @@ struct EnvironmentsOptions : SphereSampling {
   std::vector<Environment> environments;  // with different names and equal mean luminance
   std::vector<Fit> fits;                  // fits for kShipped
   int match_resolution = 512;             // width and height of the pictures of the matches
-  bool least_error = false;               // whether to compare kBest, too
+  bool least_error = false;               // also compare kBest
   std::optional<double> sheet_alpha;      // an alpha in `alphas`, for which contact sheets are drawn
 };
 
@@ -55,13 +55,14 @@ struct Conversion {
 // method. kShipped applies to pairs with a fit in `options.fits`.
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
 
-// This is the height of the pictures in the search, and its number of progress calls per alpha.
+// This is the height of the pictures in the search, and also the number of calls of `progress` for each
+// alpha.
 inline constexpr int kLeastErrorResolution = 48;
 
-// Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one
-// source alpha. It searches for the best specular at each of eleven alphas around the start, and interpolates
-// by a parabola through the best three. If the best alpha is within a factor of 1.5 of the start, the RMSE is
-// accurate to about 1 %.
+// Returns, for each of `starts`, the target parameters with the smallest mean RMSE over the environments. All
+// starts have the same source alpha. Searches the best specular at each of eleven alphas around the start,
+// and interpolates by a parabola through the best three. If the best alpha is within a factor of 1.5 of the
+// start, the RMSE is accurate to about 1 %.
 std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                                          std::span<const Conversion> starts);
 

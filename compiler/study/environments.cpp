@@ -31,7 +31,7 @@ double mean_radiance(const std::vector<float>& radiance) {
 struct LitPicture {
   DisplayedSphere display;
   double mean = 0.0;                           // mean linear luminance
-  std::array<std::vector<float>, 2> halves{};  // display colors from each half of the light directions
+  std::array<std::vector<float>, 2> halves{};  // display colors from each half of the directions of light
 };
 
 LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
@@ -43,9 +43,9 @@ LitPicture picture_of(const SpherePictures& pictures, std::size_t material, std:
   return picture;
 }
 
-// Returns the mean square sampling error of the difference of two pictures. Each half of the light
-// directions gives one such difference. The error of their mean is half of the difference between the
-// halves.
+// Returns the mean square of the sampling error of the difference of two pictures. Each half of the
+// directions of light gives one such difference. The error of their mean is half of the difference between
+// both.
 double squared_noise(const LitPicture& source, const LitPicture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
@@ -183,7 +183,7 @@ std::string environments_csv(const EnvironmentsOptions& options, const Environme
   double sum = 0.0;
   for (const EnvironmentComparison& comparison : result.comparisons) sum += comparison.squared_noise;
   const double noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
-  // All environments have the same mean luminance, up to rounding of their floats.
+  // All environments have the same mean luminance, apart from the rounding of floats.
   const double luminance = std::round(1e6 * mean_luminance(options.environments.front())) / 1e6;
   CsvText csv(
       "source,target,alpha,specular,environment,method,target_alpha,target_specular,rmse_percent,ssim,"

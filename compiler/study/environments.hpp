@@ -1,5 +1,5 @@
-// This file is the environments study. It compares pictures of source and converted spheres under environment
-// maps, for several methods of conversion.
+// This file is the environments study. For several methods of conversion, it compares pictures of the source
+// and of the converted sphere under environment maps.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace remap {
 
-// Returns the pairs and alphas whose figures the documentation states.
+// Returns the pairs and alphas that the documentation has figures for.
 std::vector<StudyPair> default_pairs();
 std::vector<double> default_alphas();
 
-// Returns the number of calls of `progress`.
+// Returns how often `progress` will be called.
 std::size_t progress_steps(const EnvironmentsOptions& options);
 
 // An EnvironmentComparison is the difference between two pictures over the pixels that show the sphere.
@@ -22,14 +22,14 @@ struct EnvironmentComparison {
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
   double rmse = 0.0;            // over all channels, percent of the display range
   double ssim = 0.0;            // for luma; 1 for equal pictures
-  double energy = 0.0;          // mean linear luminance, target / source - 1
+  double energy = 0.0;          // mean linear luminance, as target / source - 1
   double squared_noise = 0.0;   // mean square sampling error of the difference, in display values
 };
 
 struct EnvironmentsResult {
   std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
-  // If `sheet_alpha` is set, these are labelled sheets, one per environment. A row shows a pair: the source,
-  // then the result of each method. The place of a method that does not apply to the pair is dark.
+  // If `sheet_alpha` is set, these are sheets with labels, one for each environment. A row shows a pair: the
+  // source, then the result of each method. If a method does not apply to the pair, its place is dark.
   std::vector<Image> sheets;
 };
 
@@ -38,8 +38,8 @@ struct EnvironmentsResult {
 // kNumeric if a fit cannot be lowered, and kInterrupted.
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
-// Returns a row for each comparison. The comments are the settings and the sampling noise, which is the RMS
-// error of the difference of two compared pictures. Its square adds to the square of an RMSE.
+// Returns a row for each comparison. The comments are the settings and the sampling noise. The noise is the
+// RMS error of the difference between two pictures. Its square adds to the square of an RMSE.
 std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
 }  // namespace remap

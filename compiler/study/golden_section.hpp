@@ -1,4 +1,4 @@
-// This file holds a one-dimensional search for the least errors of the studies.
+// This file holds a one-dimensional search for the smallest errors in studies.
 #pragma once
 
 #include <utility>
@@ -6,8 +6,8 @@
 namespace remap {
 
 // Searches [low, high] by golden sections for the minimum of `f`, which must have only one minimum there.
-// Each of `steps` evaluates `f` once and shortens the interval to 0.618. Returns the best point and its
-// value.
+// Each of the `steps` steps evaluates `f` once and shortens the interval to 0.618 of its length. Returns the
+// best point and its value.
 template <typename Function>
 std::pair<double, double> golden_section(double low, double high, int steps, const Function& f) {
   constexpr double kGolden = 0.6180339887498949;

@@ -92,8 +92,8 @@ class MetallicSearch {
   }
 
  private:
-  // Returns the sum of squared errors over the pixels of a strip, and adds its derivatives for Newton's
-  // method.
+  // Returns the sum of squared errors over the pixels of a strip. Adds its derivatives to the sums for
+  // Newton's method.
   double squared_error(const Strip& strip, double metallic, double albedo, double* slope_sum,
                        double* bend_sum) const {
     const double n = 1.0 - metallic;
@@ -114,8 +114,9 @@ class MetallicSearch {
     return square;
   }
 
-  // Returns the least mean RMSE at one metallic, and sets `best` if no earlier call found less. Each step of
-  // Newton's method weights a light by the inverse of its RMSE, because the objective is a mean of roots.
+  // Returns the smallest mean RMSE at one metallic. If no earlier call found a smaller one, sets `best`. In
+  // each step of Newton's method, the weight of a light is the inverse of its RMSE, because the objective is
+  // a mean of roots.
   double error_at(double metallic, const Rgb& start, MetallicSurface* best) {
     Rgb albedo = start;
     double least = 1e300;

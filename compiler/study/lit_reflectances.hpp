@@ -1,7 +1,7 @@
-// This file holds pictures of all materials of one lobe. A picture is linear in diffuse reflectance and F0,
-// so three pictures for each light and alpha give all others. They give the least error of conversions to the
-// metallic workflow. A numerical search finds the base color and metallic whose pictures are closest to a
-// specular material's.
+// This file holds pictures from which the pictures of all materials with one lobe follow. A picture is linear
+// in diffuse reflectance and F0, so three pictures for each light and alpha suffice. With these, a numerical
+// search finds the base color and metallic whose pictures are the closest to those of a specular material.
+// This is the smallest error of any conversion to the metallic workflow.
 #pragma once
 
 #include <cstdint>
@@ -69,10 +69,10 @@ struct MetallicSurface {
 
 Reflectances reflectances_of(const MetallicSurface& surface, const MetallicReflection& reflection);
 
-// Returns the surface of least mean RMSE of display values over the environments of `lit` at one of its
-// alphas. It searches metallic on a grid of 33 values and by a golden section around the best value, and base
-// color by Newton's method. It compares a quarter of the pixels, so its RMSE may exceed the least RMSE by a
-// few thousandths of it.
+// Returns the surface with the smallest mean RMSE of display values over the environments of `lit`, at one of
+// its alphas. Searches metallic on a grid of 33 values, and by golden sections around the best value.
+// Searches base color by Newton's method. Compares a quarter of the pixels, so its RMSE may be a few
+// thousandths above the smallest.
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection);
 

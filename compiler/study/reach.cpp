@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kAlphaRatio = 1.01;  // ratio of neighbouring widths of the target
 constexpr std::size_t kStride = 6;    // step between the widths that are examined first
-constexpr double kNarrowest = 0.25;   // least width of the target, relative to the source's least
+constexpr double kNarrowest = 0.25;   // smallest width of the target, relative to the source's smallest
 
 // Returns value `i` of `count` over a range, including its ends.
 double part(const Range& range, std::size_t i, std::size_t count) {
@@ -47,8 +47,8 @@ ProbedModel probed(const PictureTaker& taker, const Renderer& renderer, const st
   return model;
 }
 
-// A TargetWidths holds the widths of a target, a hundredth apart, with the pictures that give all others of
-// each width. Thread-safe.
+// A TargetWidths holds widths of a target that are 1 % apart, and at each width the pictures whose
+// combinations give all others. Thread-safe.
 class TargetWidths {
  public:
   TargetWidths(const PictureTaker& taker, ProbedModel target, double narrowest)
@@ -124,16 +124,16 @@ class Comparison {
   double power_, error_factor_;
 };
 
-// Returns the least value of the parabola through three errors at equal steps, of which the middle one is the
-// least. It uses squares, because losses are parabolas in squares.
+// Returns the minimum of the parabola through three errors at equal steps, of which the middle one is the
+// smallest. Uses squares of errors, because the squares are a parabola.
 double least_between(double before, double middle, double after) {
   const double b = before * before, m = middle * middle, a = after * after;
   const double bend = b - 2.0 * m + a;
   return bend > 0.0 ? std::sqrt(std::max(0.0, m - 0.125 * (a - b) * (a - b) / bend)) : middle;
 }
 
-// Examines every sixth width. Between its neighbours, it then examines all widths around each that is not
-// worse than both.
+// Examines every sixth width. If one of these is not worse than both neighbours, examines all widths between
+// its neighbours.
 void find_least(const Comparison& comparison, const TargetWidths& target, ReachedMaterial* material) {
   const std::size_t count = target.size();
   const SpecularFamily family = target.target().family().value();

@@ -1,5 +1,5 @@
-// This file is the reach study. It measures how much closer to the source's picture the target could come
-// than a converter brings it, over the whole range of both parameters.
+// This file is the reach study. A converter brings the target's picture close to the source's. The study
+// measures how much closer it could come, over the whole range of both parameters.
 #pragma once
 
 #include <atomic>
@@ -14,9 +14,9 @@ namespace remap {
 
 struct ReachOptions {
   std::vector<Fit> fits;  // between models that the renderer has
-  // canonical ranges of the sources' specular, one per fit; empty: whole ranges
+  // Canonical ranges of specular, one for the source of each fit. If empty, whole ranges are used.
   std::vector<Range> speculars;
-  std::size_t materials = 32;      // number of values of each parameter; all combinations are compared
+  std::size_t materials = 32;      // number of values of each parameter, all of which are combined
   Range alphas{0.05, 1.0};         // range of the source; narrower highlights need more pixels
   int resolution = 192;            // width and height of the pictures in pixels
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
@@ -26,8 +26,8 @@ struct ReachOptions {
 
 std::size_t progress_steps(const ReachOptions& options);
 
-// A ReachedMaterial is one source material. Errors compare pictures, relative to the source's, as the
-// objective of the fit's table weighs them.
+// A ReachedMaterial is one source material. Errors are differences of pictures, relative to the source's,
+// with the weights of the objective in the fit's table.
 struct ReachedMaterial {
   double alpha = 0.0, specular = 0.0;                // the source's parameters
   double target_alpha = 0.0, target_specular = 0.0;  // converted parameters
@@ -38,10 +38,10 @@ struct ReachedMaterial {
 };
 
 // Renders every material and its conversion (by the interpreter, with the domain rule). Also renders the
-// target at widths a hundredth apart, each at its best specular in closed form. It uses no search of a sweep.
-// Throws kUsage for models that the renderer lacks, and kInterrupted. Throws kInput for a fit whose table
-// does not name its objective and for a target without a family (specular_response.hpp). Returns the
-// materials of each fit.
+// target at widths that are 1 % apart, each with its best specular, which a formula gives. It does not use
+// the search of a sweep. Throws kUsage for models that the renderer lacks, and kInterrupted. Throws kInput
+// for a fit whose table does not name its objective, and for a target without a family
+// (specular_response.hpp). Returns the materials of each fit.
 std::vector<std::vector<ReachedMaterial>> study_reach(const Renderer& renderer, const ReachOptions& options);
 
 // Returns a row for each material, in the order of the fits.

@@ -1,4 +1,5 @@
-// `remap-study environments` compares pictures of source and converted spheres under environment maps.
+// This file is `remap-study environments`. It compares pictures of source and converted spheres under
+// environment maps.
 #include <algorithm>
 
 #include "build/fit_folder.hpp"

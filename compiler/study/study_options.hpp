@@ -16,18 +16,20 @@ namespace remap {
 struct StudyOptions {
   std::vector<std::filesystem::path> environments;  // if empty, the built-in environments
   double exposure = 1.0;                            // mean luminance of each environment after scaling
-  std::filesystem::path fit_folder;                 // if empty, the default, if it exists
+  std::filesystem::path fit_folder;                 // if empty, the default folder if it exists
   std::filesystem::path folder;                     // folder of the results; if empty, standard output
   bool pictures = false, force = false, quiet = false;
 };
 
-// Adds `--environment` and `--exposure`. Options must outlive the parsing, here and below.
+// Adds `--environment` and `--exposure`. The options must outlive the parsing, here and in the following
+// functions.
 void add_environment_options(Command& app, StudyOptions& options);
 
 // Adds `--resolution` and `--samples`.
 void add_sampling_options(Command& app, SphereSampling& sampling);
 
-// Adds `-o`, `--force`, `--jobs`, `--quiet`, and `--pictures` if it has a text. The texts appear in the help.
+// Adds `-o`, `--force`, `--jobs` and `--quiet`. If `pictures` has a text, also adds `--pictures`. The texts
+// are for the help.
 void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, const std::string& folder_text,
                         const std::string& pictures_text = "");
 
@@ -36,7 +38,8 @@ void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, con
 // load_environment.
 std::vector<Environment> read_environments(const StudyOptions& options);
 
-// Returns the user's folder of fits, otherwise the default. Returns an empty path if there is none.
+// Returns the folder of fits that the user chose, otherwise the default folder. Returns an empty path if
+// there is none.
 std::filesystem::path fit_folder_of(const StudyOptions& options);
 
 // Creates the output folder for the results of the study `name`. Throws kUsage for pictures without a folder.
@@ -54,7 +57,7 @@ auto run_study(const std::string& name, Options& options, const StudyOptions& sh
   return study(options);
 }
 
-// Writes a table to FOLDER/NAME.csv, its comments to FOLDER/NAME.csv.json. Prints both without a folder.
+// Writes a table to FOLDER/NAME.csv and its comments to FOLDER/NAME.csv.json. Without a folder, prints both.
 void write_results(const StudyOptions& options, const std::string& name, const std::string& table);
 
 // Writes one sheet for each environment to FOLDER/PREFIX_<environment>.png.

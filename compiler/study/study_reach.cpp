@@ -1,4 +1,5 @@
-// `remap-study reach` measures how much closer the target could come than converters bring it.
+// This file is `remap-study reach`. It measures how much closer the target could come to the source than
+// converters bring it.
 #include <algorithm>
 #include <memory>
 
@@ -29,8 +30,8 @@ Range sampled_speculars(const std::filesystem::path& table) {
   return {least->specular1, most->specular1};
 }
 
-// Returns the requested fits. Without a request these are all fits between models of the built-in renderer
-// that were matched by pictures.
+// Returns the fits that the user requested. Without a request, returns all fits between built-in models that
+// were matched by pictures.
 std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem::path& folder) {
   std::vector<Fit> chosen;
   for (Fit& fit : load_fits(folder)) {

@@ -1,4 +1,5 @@
-// `remap-study workflows` measures what conversions from the specular to the metallic workflow lose.
+// This file is `remap-study workflows`. It measures what is lost in conversions from the specular to the
+// metallic workflow.
 #include <filesystem>
 
 #include "build/fit_folder.hpp"

@@ -79,7 +79,7 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
   return sum / static_cast<double>(environment_count);
 }
 
-// Compares one material with the results of `methods`. The last method is the least error.
+// Compares one material with the results of `methods`. The last method is the one with the smallest error.
 std::vector<WorkflowPictures> compared(const LitReflectances& lit, const std::vector<WorkflowMethod>& methods,
                                        const StudyMaterial& material, const Reflectances& shown,
                                        double alpha) {
@@ -132,7 +132,7 @@ WorkflowComparison comparison_of(const WorkflowsOptions& options, const LitRefle
   return comparison;
 }
 
-// Returns indices of the first materials of each group.
+// Returns indices of the first materials of each group, which sheets show.
 std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials) {
   std::vector<std::size_t> rows;
   std::map<std::string, std::size_t> counts;
@@ -203,7 +203,7 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// Converts to the specular workflow by `there`, then back by `method`.
+// Converts to the specular workflow by `there`, and from there to the metallic workflow by `method`.
 RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversion& there, FamilyKind kind,
                            std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -341,7 +341,7 @@ std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& l
   for (WorkflowMethod& method : methods) {
     WorkflowConversion& conversion = there.emplace_back(method.conversion);
     if (!is_formula(method.conversion.formula, ClosedFormula::kKhronos)) continue;
-    // Importers apply the solver to plain maps, for which it is not made, so this is tested, too.
+    // Khronos' solver is not made for plain maps, but importers apply it to them, so this is tested, too.
     method.name += ", plain";
     conversion.specular.diffuse = conversion.metallic.diffuse = DiffuseConvention::kPlain;
   }

@@ -16,13 +16,13 @@ namespace remap {
 // A WorkflowMethod is a conversion with the reflectances of its result.
 struct WorkflowMethod {
   std::string name;
-  WorkflowConversion conversion;  // to metallic; source and target have alpha as width
+  WorkflowConversion conversion;  // converts to metallic; both ends have alpha as width
   MetallicReflection reflection;  // reflectances of the resulting metallic material
 };
 
-// Returns the methods for plain diffuse. In order, they are equation (3) by both means with F0 0.03 and 0.04,
-// Khronos' solver, the networks of `learned` and the projection. Khronos' solver is made for the glTF
-// convention, but importers apply it to plain maps. Networks of other conventions are skipped.
+// Returns the methods for plain diffuse: equation (3) with both means and with F0 0.03 and 0.04, Khronos'
+// solver, the networks in `learned`, and the projection. Khronos' solver is made for the glTF convention, but
+// importers apply it to plain maps. Networks for other conventions are skipped.
 std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned);
 // Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
 // solver is made for this convention.
@@ -57,7 +57,8 @@ struct WorkflowPictures {
   std::vector<double> ssim;  // for each light: similarity of luma
 };
 
-// A WorkflowComparison holds all methods in one convention. The last is kLeastErrorMethod, a search.
+// A WorkflowComparison holds all methods in one convention. The last method is kLeastErrorMethod, which is a
+// search.
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<WorkflowMethod> methods;
@@ -69,23 +70,23 @@ inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
 struct WorkflowsResult {
   std::vector<WorkflowComparison> comparisons;  // plain, then glTF
-  // This holds one labelled sheet for each environment, in display values. Each group has two rows, one per
-  // material, with the source, then the plain methods.
+  // This holds one sheet with labels for each environment, in display values. Each group has two rows, one
+  // for each material. A row shows the source, and then the plain methods.
   std::vector<Image> sheets;
 };
 
-// Renders every material and the result of each method. The least error is the best result of a search under
-// these environments and of all methods with its F0, so that no method has a smaller error. Throws kUsage for
-// empty lists, numbers out of range, and an environment with the name of another environment or of the
-// headlight. Also throws kInterrupted.
+// Renders every material and the result of each method. The smallest error is that of the best result, either
+// of a search under these environments, or of a method with the same F0. So no method has a smaller error.
+// Throws kUsage for empty lists, numbers out of range, and an environment with the name of another
+// environment or of the headlight. Also throws kInterrupted.
 WorkflowsResult study_workflows(const WorkflowsOptions& options);
 
 // Returns a row for each convention, material, method and light. The last light is the headlight.
 std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult& result);
 
-// Round trips: random metallic materials are converted to the specular workflow by equation (2) and back by
-// each method (Sztrajman et al. 2019, section 8, figure 20, in the opposite direction). Both workflows can
-// represent them.
+// The following tests round trips. Random metallic materials are converted to the specular workflow by
+// equation (2), and by each method to the metallic workflow again (Sztrajman et al. 2019, section 8, figure
+// 20, in the opposite direction). Both workflows can represent these materials.
 
 // A FamilyKind is the distribution of the materials and the storage of the specular maps.
 enum class FamilyKind {

@@ -13,20 +13,20 @@
 namespace remap {
 namespace {
 
-// Section 7 fits a quartic, and five coefficients of k. Each width gives one value, so fewer widths do not
+// Section 7 fits a quartic and the five coefficients of k. Each width gives one value, so fewer widths do not
 // suffice.
 constexpr std::size_t kFewestAlphas = 6;
 constexpr std::size_t kFewestGridRows = 12;
 // Rows of the same sample contradict each other if their targets differ by more than this. Alpha differs
 // absolutely, specular relatively.
 constexpr double kSameValue = 1e-6;
-// A step of the grid is a gap if it is this many times the median step.
+// A step of the grid is a gap if it is at least this many times as large as the median step.
 constexpr double kGapFactor = 3.0;
 // A value is a jump if it is this far from the line through its neighbours (figures 6, 8 and 10 of the paper
 // show jumps of 10 % and more; smooth sweeps stay below 1 %).
 constexpr double kJumpAlpha = 0.02;
 constexpr double kJumpSlope = 0.05;
-// With fewer random samples for each source column, nothing can be learned.
+// Fewer random samples for each source column are too few to fit anything.
 constexpr std::size_t kFewestRowsAColumn = 10;
 
 using Rows = std::vector<const TableRow*>;
@@ -47,8 +47,8 @@ class Findings {
   void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
     all_.push_back({severity, kind, line, message});
   }
-  // Adds the sample of line `line`, which line `first` has already. `same` is true if the target values
-  // agree, too.
+  // Adds the sample of line `line` that line `first` has already. `same` is true if the target values are
+  // equal, too.
   void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
     const std::string repeat = sample + " also appears in line " + std::to_string(first);
     if (same)

@@ -1,4 +1,4 @@
-// This file checks a table before it is fitted, because a regression hides faults in its data.
+// This file checks a table before it is fitted, because a regression would hide errors in the data.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace remap {
 
 enum class Severity {
-  kNote,     // worth knowing
+  kNote,     // information
   kWarning,  // the fit will be less accurate
   kError,    // cannot be fitted
 };
@@ -17,7 +17,7 @@ enum class Severity {
 struct Finding {
   Severity severity = Severity::kNote;
   std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows, light
-  std::size_t line = 0;  // line in the file; 0 if it concerns the whole table
+  std::size_t line = 0;  // line in the file; 0 for the whole table
   std::string message;
 };
 
@@ -32,10 +32,10 @@ std::vector<Finding> check_table(const MaterialTable& table, bool accept_light =
 
 std::string_view severity_name(Severity severity);
 
-// Formats `name:line: severity: kind: message`, without the line if it is 0; `name` is the table's.
+// Formats `name:line: severity: kind: message`, without the line if it is 0. `name` is the name of the table.
 std::string finding_text(const std::string& name, const Finding& finding);
 
-// Throws kInput with the first error, and the number of further ones, if the table cannot be fitted.
+// If the table cannot be fitted, throws kInput with the first error and the number of further errors.
 void require_fittable(const Table& table, bool accept_light = false);
 
 }  // namespace remap

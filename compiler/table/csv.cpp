@@ -81,7 +81,7 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
 void add_comment(std::string_view line, Comments* comments) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string_view::npos || comments->size() == kMostCsvComments) return;
-  // Comments reach fits and headers, which accept no control characters.
+  // Comments become part of fits and headers, which allow no control characters.
   comments->emplace_back(plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
                          plain(trimmed(line.substr(colon + 2)), kLongestComment));
 }

@@ -29,8 +29,8 @@ struct CsvLine {
   std::vector<CsvCell> cells;
 };
 
-// These limit the tables that are read: twice the largest table of remapc sample. A million rows take 300 MB
-// of memory while they are read.
+// These limit the tables that are read to twice the size of the largest table of remapc sample. A million
+// rows need 300 MB of memory while they are read.
 inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
 inline constexpr std::size_t kLongestCsvLine = 100'000, kLongestComment = 5000;  // both in bytes
 
@@ -39,7 +39,7 @@ struct Csv {
   Comments comments;
   CsvLine header;
   std::vector<CsvLine> lines;
-  std::vector<std::string> remarks;  // assumptions, for the user
+  std::vector<std::string> remarks;  // what was assumed, for the user
 
   // Returns the value of a comment, or an empty text if there is no such comment.
   std::string comment(const std::string& key) const;
@@ -61,7 +61,7 @@ Csv parse_csv(std::string_view text, const std::string& name);
 // A CsvText is CSV text that is being written.
 class CsvText {
  public:
-  // `header` holds the names of the columns, separated by commas.
+  // `header` holds the names of the columns with commas between them.
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
   // Adds a row of at least one cell. A cell is a text (quoted if it holds a comma) or a number (the shortest

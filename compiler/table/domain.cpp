@@ -15,8 +15,7 @@ namespace {
 // column until it has kRowsAColumn rows.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// In scattered rows, a column is treated as complete if it ends within this fraction of the highest
-// specular1.
+// If rows are scattered, a column is complete if it ends within this fraction of the highest specular1.
 constexpr double kSameReach = 0.9;
 // Widths that differ by less than this fraction, a few units of a table's last digit, are treated as one.
 constexpr double kSameWidth = 1e-9;

@@ -5,9 +5,9 @@
 
 namespace remap {
 
-// Returns the box with alpha1 in a range and specular1 from 0 to a bound. In this box, every width has rows
-// of an answer up to the bound, and no other row is clamped (covered_box.hpp chooses among such boxes). Rows
-// of other statuses are gaps and do not limit the box. Throws kInput if the table has no such box.
+// Returns the box with alpha1 in a range and specular1 from 0 to a bound. In this box, every width has usable
+// rows up to the bound, and no other row is clamped. covered_box.hpp chooses among such boxes. Rows of other
+// statuses are gaps, which do not limit the box. Throws kInput if there is no such box.
 Domain table_domain(const Table& table);
 
 // Formats a range as `0.01 to 1`.

@@ -1,7 +1,7 @@
-// This file handles the light of two renderers, which a sweep makes equal before it compares their
-// highlights. It multiplies the source's pictures by the factor that makes white diffuse spheres of both look
-// the same. This is right if only the lights differ. If the diffuse lobes differ (Oren-Nayar against
-// Lambert), it wrongly changes the specular of every row.
+// This file handles the light of two renderers. A sweep makes it equal before it compares highlights. For
+// this, it multiplies the source's pictures by the factor that makes white diffuse spheres of both renderers
+// look the same. This is right if only the lights differ. If diffuse lobes differ (Oren-Nayar and Lambert),
+// it wrongly changes the specular of every row.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace remap {
 
-// These comments of a table hold the factor, how much the diffuse pictures still differ after it (RMS), and
-// whether a user has accepted both.
+// These comments of a table hold the factor, the RMS difference of diffuse pictures that remains, and whether
+// a user has accepted both.
 inline constexpr const char* kLightScaleComment = "irradiance_scale";
 inline constexpr const char* kDiffuseErrorComment = "diffuse_error";
 inline constexpr const char* kLightAcceptedComment = "light_accepted";
 
 struct LightMatch {
-  double scale = 1.0;          // multiplies the source's pictures, and so the specular of the target
+  double scale = 1.0;  // factor for the source's pictures, which also changes the specular of the target
   double diffuse_error = 0.0;  // relative to the source's picture
   bool accepted = false;
 };
 
-// A scale or difference beyond this value is reported. Noise and rounding errors of renderers are smaller.
+// A larger scale or difference is reported. Noise and rounding errors of renderers are smaller.
 inline constexpr double kSaidLightChange = 0.01;
-// Beyond this value, the scale changes specular by more than a fit's errors and than most people see.
+// A larger scale changes specular by more than the error of a fit, and most people see it.
 inline constexpr double kMostLightChange = 0.05;
 
 // Returns true if specular changes by more than kMostLightChange and nobody has accepted it.
@@ -37,7 +37,7 @@ std::string light_remark(const LightMatch& match);
 // Throws kInput with the remark, beginning with `context`, if the light is wrong.
 void require_light(const LightMatch& match, const std::string& context);
 
-// Returns the match that comments record. Comments without one mean equal light.
+// Returns the match that comments record. If they record none, the light is equal.
 LightMatch light_match(const Comments& comments);
 
 }  // namespace remap

@@ -24,7 +24,7 @@ struct MaterialTable {
   Comments comments;                                        // without the two comments that list columns
   std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
-  std::vector<std::string> remarks = {};  // assumptions of the parser, for the user
+  std::vector<std::string> remarks = {};  // what the parser assumed, for the user
 };
 
 // Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
@@ -35,8 +35,8 @@ std::string material_table_text(const MaterialTable& table);
 // An AnyTable is a table of alpha and specular (remapc sweep), or of named parameters (remapc sample).
 using AnyTable = std::variant<Table, MaterialTable>;
 
-// Reads CSV text that was parsed as the form that its comments declare. A comment source_columns makes it a
-// MaterialTable. `map` applies only to a Table. Throws like parse_table and parse_material_table.
+// Makes a table from CSV text in the form that its comments declare. With a comment source_columns, it is a
+// MaterialTable. `map` applies only to a Table. Throws like parse_table() and parse_material_table().
 AnyTable any_table(const Csv& csv, const ColumnMap& map);
 // Parses text and then calls any_table().
 AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});

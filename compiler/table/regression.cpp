@@ -11,7 +11,7 @@
 namespace remap {
 namespace {
 
-constexpr double kSmallestSpread = 2e-4;  // spread of alpha; a smaller one is not visible
+constexpr double kSmallestSpread = 2e-4;  // a smaller spread of alpha is not visible
 constexpr double kTimesScatter = 2.0;
 constexpr std::size_t kFewestRows = 10;
 
@@ -44,8 +44,8 @@ void require_variety(const std::vector<TableRow>& rows, const std::string& kind)
 bool alpha_needs_specular(const std::vector<TableRow>& rows) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
   for (const TableRow& row : rows) by_alpha[row.alpha1].push_back(&row);
-  // A straight line over specular is fitted at each alpha1. These are sums of what the lines explain, and of
-  // the squared residuals.
+  // At each alpha1, a straight line over specular is fitted. These are sums over all lines. `explained` is
+  // what the lines explain, and `left` are their squared residuals.
   double explained = 0.0, left = 0.0, degrees = 0.0, count = 0.0;
   for (const auto& [alpha, group] : by_alpha) {
     if (group.size() < 3) continue;

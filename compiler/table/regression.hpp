@@ -29,8 +29,8 @@ struct Regression {
 // exception from it ends the regression. It may be empty.
 using FitProgress = std::function<void(double share)>;
 
-// Returns the progress of a part of the work, from the fraction `begin` to the fraction `end`. It refers to
-// `progress`, and is empty if `progress` is.
+// Returns the progress for a part of the work that goes from the fraction `begin` to the fraction `end`. It
+// refers to `progress`, and is empty if `progress` is empty.
 FitProgress part_of(const FitProgress& progress, double begin, double end);
 
 // Returns the weight of an output's error when fits are compared: 1 / value, but at most 50. Pictures show
@@ -41,12 +41,13 @@ double error_weight(double value);
 // `kind`.
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind);
 
-// Returns true if target alpha varies with specular at fixed source alpha by more than its scatter. It
-// compares the variation of alpha2 that straight lines over specular explain, one for each alpha1, with their
-// residuals. If this is false, target alpha is fitted only from source alpha.
+// Returns true if target alpha depends on specular at the same source alpha. For each alpha1, a straight line
+// over specular is fitted to alpha2. The lines must explain more than the residuals leave. If this is false,
+// target alpha is fitted from source alpha only.
 bool alpha_needs_specular(const std::vector<TableRow>& rows);
 
-// Returns `id`, or the id of a converter between the models if it is empty. Throws kUsage for an invalid id.
+// Returns `id`. If it is empty, returns the id of a converter between the models. Throws kUsage for an
+// invalid id.
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model);
 
 }  // namespace remap

@@ -30,7 +30,7 @@ struct RowSplit {
 // the machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed, double held_out_fraction);
 
-// Returns the rows at which the target is at no limit.
+// Returns the rows whose target is at no limit.
 std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows);
 
 // A Residuals holds errors of target alpha and target specular, one per row. `map` gives the target's alpha
@@ -42,10 +42,10 @@ Residuals residuals_of(const std::vector<TableRow>& rows,
                        const std::function<MappedTexel(double alpha, double specular)>& map);
 Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping);
 
-// Returns RMS, 99th percentile (closest rank) and maximum of absolute values, and zeros for an empty list.
+// Returns RMS, 99th percentile (closest rank) and maximum of absolute values. All are zero for an empty list.
 ErrorFigures error_figures(std::vector<double> errors);
 
-// Formats an error with two significant digits, rounded away from 0: `7.2e-04`; `0` for 0.
+// Formats an error with two significant digits, rounded up in magnitude: `7.2e-04`, or `0` for 0.
 std::string error_text(double error);
 
 }  // namespace remap

@@ -15,7 +15,7 @@
 namespace remap {
 namespace {
 
-// The names are in the order of RowStatus.
+// These names are in the order of RowStatus.
 constexpr std::array<std::string_view, 7> kStatusNames = {"ok",      "clamped", "flat",   "unstable",
                                                           "clamped", "clamped", "clamped"};
 constexpr double kSameLimit = 1e-8;  // relative difference, because tables hold ten digits
@@ -25,7 +25,7 @@ constexpr std::size_t kRequiredColumns = 4;
 constexpr const char* kPublished = "sztrajman-2019";
 constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 
-// Returns true if this is the table that was published with the paper, by its columns and the models in them.
+// Returns true if this is the table that was published with the paper. Its columns and models identify it.
 bool is_published(const Csv& csv) {
   const auto holds = [&](std::string_view column, std::string_view word) {
     const auto found = std::ranges::find(csv.header.cells, column, &CsvCell::text);

@@ -1,5 +1,5 @@
-// This file holds the table of a sweep: the target's parameters for each sample of the source's. Sweeps write
-// it and fits read it, as a CSV file that records how it was made.
+// This file holds the table of a sweep, which has the target's parameters for each sample of the source.
+// Sweeps write it and fits read it, as a CSV file with comments that record how it was made.
 #pragma once
 
 #include <array>
@@ -52,20 +52,20 @@ struct Table {
   bool has_diffuse = false;  // true if rows have diffuse1 and diffuse2
   bool has_error = true;     // if false, the errors of its rows are NaN and are not written
   std::vector<TableRow> rows;
-  Limits limits;                     // from the comments (find_limits)
-  std::vector<std::string> remarks;  // assumptions of the parser, for the user
+  Limits limits;                     // from comments (find_limits)
+  std::vector<std::string> remarks;  // what the parser assumed, for the user
 };
 
 // A sweep records the limits of its target in these comments.
 inline constexpr const char* kAlphaLimitComment = "target_alpha_limit";
 inline constexpr const char* kSpecularLimitComment = "target_specular_limit";
 
-// Returns kWide, kBright or kCorner for a row at these limits, otherwise the row's own status.
+// Returns kWide, kBright or kCorner if the row is at these limits. Otherwise, returns the status of the row.
 RowStatus status_at(const TableRow& row, const Limits& limits);
 
-// Sets the limits of a table from its comments, and the statuses of its rows, if the limit of alpha is known.
-// Call it after making a table with limits; parsed tables have them. Throws kInput for a comment that is not
-// a number above 0.
+// Sets the limits of a table from its comments. If the limit of alpha is known, also sets the statuses of its
+// rows. Call this after making a table with limits. Parsed tables have them already. Throws kInput for a
+// comment that is not a number above 0.
 void find_limits(Table* table);
 
 // These comments identify a table of named parameters (material_table.hpp): the columns of each side,
@@ -78,23 +78,24 @@ inline constexpr const char* kSpheresComment = "sphere_ssim";
 
 // A ColumnMap holds the columns and models of a foreign table.
 struct ColumnMap {
-  // maps an own name to the name in the file; a name that is missing is the same in both
+  // Maps our name of a column to its name in the file. A name that is missing here is the same in the file.
   std::map<std::string, std::string> columns;
-  ModelSide source;  // if the model is empty, the comments of the file give it
+  ModelSide source;  // if its model is empty, the comments of the file have it
   ModelSide target;
 };
 
 // Returns the column map of a preset, or of `own=file,own=file,...`. The preset `sztrajman-2019` is for the
-// table published with the paper, Mitsuba Ward to Ashikhmin-Shirley. Its `eta2` holds F0, and its `k2` is a
-// sentinel. It is recognised if no map is given. Throws kUsage for an unknown preset or own column.
+// table that was published with the paper, from Mitsuba Ward to Ashikhmin-Shirley. `eta2` in that table is
+// F0, and `k2` is a placeholder. If no map is given, the preset is used for that table. Throws kUsage for an
+// unknown preset or column.
 ColumnMap column_map(const std::string& text);
 
-// Parses CSV text: UTF-8, `#` comments, then a header row delimited by comma, tab or semicolon. The columns
-// alpha1, specular1, alpha2, specular2 are required. The columns error, status, and diffuse1 with diffuse2
-// are optional. Others are ignored. `<side>_specular_column` names the specular of a side if its columns hold
-// another coordinate than the model's own parameter (F0 for an index), otherwise `<side>_specular` does.
-// Throws kInput with `name:line:column:` for a missing column, a bad number or status, a row of another
-// length, and text without rows.
+// Parses CSV text: UTF-8, `#` comments, then a header row, with comma, tab or semicolon as delimiter. The
+// columns alpha1, specular1, alpha2 and specular2 are required. The columns error, status, and diffuse1 with
+// diffuse2 are optional. Other columns are ignored. The comment `<side>_specular` names the specular
+// parameter of a side. If the column holds another coordinate (F0 for an index), `<side>_specular_column`
+// names this coordinate. Throws kInput with `name:line:column:` for a missing column, a bad number or status,
+// a row of another length, and text without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 // Makes the table from CSV text that parse_csv has split.
@@ -102,7 +103,8 @@ Table table_from_csv(const Csv& csv, const ColumnMap& map);
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
-// Returns true if the row's match is usable, even at a limit of the target. Fits use only such rows.
+// Returns true if the match of the row can be used, even if it is at a limit of the target. Fits use only
+// such rows.
 bool has_answer(const TableRow& row);
 std::vector<TableRow> answer_rows(const Table& table);
 
@@ -116,7 +118,7 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const Domai
 // the errors only if has_error. Parsing the text gives the same numbers.
 std::string table_text(const Table& table);
 
-// Returns the facts that a fit records about its table, whose file is `bytes`.
+// Returns what a fit records about its table. `bytes` is the content of the table's file.
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
 
 }  // namespace remap

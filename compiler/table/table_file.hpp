@@ -1,6 +1,6 @@
 // This file reads and writes tables. Commands write plain CSV, which numpy, pandas and spreadsheets read
-// without options. FILE.json next to it records how the table was made (decision 052). Tables with comments
-// can be read as well.
+// without options. FILE.json beside it records how the table was made (decision 052). Tables with comments
+// can be read, too.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +22,8 @@ Comments parse_metadata(std::string_view json, const std::string& context);
 // Parses the content of the file `path` (parse_csv). A table without comments gets the comments of FILE.json.
 Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path);
 
-// Returns the table as one text, including its comments. Fits record the hash of this text, so both forms of
-// a table have the same hash.
+// Returns the table as one text, with its comments. Fits record the hash of this text, so both forms of a
+// table have the same hash.
 std::string whole_text(const Csv& csv, std::string_view bytes);
 
 // Throws kOutput if the table or its FILE.json exists already, unless `force`.

@@ -46,7 +46,7 @@ AppearanceCoordinates coordinates_without_terms(int dimension) {
   return coordinates;
 }
 
-// Does a ridge regression over the 36 terms of texels.
+// Fits the 36 terms of texels by ridge regression.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
   const std::vector<std::uint32_t> texels = sample_texels(material, kSlowTexels);
@@ -83,7 +83,7 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   if (!(space.radius > kLeastRadius * space.mean.norm()))
     throw input_error(material.name() +
                       ": all texels look the same (a warp needs a material with at least two appearances)");
-  // With fewer than three features, the axes that are missing are 0.
+  // With fewer than three features, the remaining axes are 0.
   const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
   space.axes = Eigen::MatrixXd::Zero(columns.rows(), 3);
   space.axes.leftCols(found) = symmetric_eigen(covariance).vectors.rightCols(found).rowwise().reverse();

@@ -1,6 +1,6 @@
-// This file computes appearance spaces: principal coordinates of each material (An et al. 2011, section 3).
-// Distances are Euclidean in features, so multidimensional scaling reduces to a principal component analysis
-// without landmarks, and coordinates are closed forms of the parameters.
+// This file computes appearance spaces, which are principal coordinates of each material (An et al. 2011,
+// section 3). Distances are Euclidean in features. So multidimensional scaling is a principal component
+// analysis that needs no landmarks, and coordinates are closed formulas of the parameters.
 #pragma once
 
 #include <array>
@@ -35,12 +35,12 @@ int dimension_of(const AppearanceSpace& space);
 AppearanceCoordinates closed_form(const AppearanceSpace& space, const SeparableFeatures& features,
                                   int dimension);
 
-// Returns positions of all texels, with NaN for texels that are not finite.
+// Returns positions of all texels. Texels that are not finite get NaN.
 Points positions_of(const AppearanceCoordinates& coordinates, const std::vector<WarpTexel>& texels);
 
 // A Placement holds the coordinates of a material's texels.
 struct Placement {
-  // For parameters this is a closed or fitted form, for tables the position of every entry.
+  // For parameters, this is a formula, exact or fitted. For tables, it has the position of every entry.
   std::variant<AppearanceCoordinates, Points> coordinates;
   // This is the RMS distance of fitted coordinates from the projected features, over at most 4096 texels. It
   // is 0 for a closed form and for tables.
@@ -50,7 +50,7 @@ struct Placement {
 Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
                        const AppearanceSpace& space, int dimension);
 
-// Return positions of all texels, or of `texels`, with NaN for those not finite or not in the table.
+// Return positions of all texels, or of `texels`. Texels that are not finite or not in the table get NaN.
 Points positions_of(const Placement& placement, const MaterialRef& material);
 Points positions_of(const Placement& placement, const MaterialRef& material,
                     const std::vector<std::uint32_t>& texels);

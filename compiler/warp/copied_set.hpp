@@ -1,4 +1,5 @@
-// This file writes a warp's exact copy to files: each source texel is copied from one template texel.
+// This file writes the exact copy of a warp to files. In it, each source texel is a copy of one template
+// texel.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace remap {
 
-// These are the files of all kinds.
+// These are the names of files of all kinds.
 inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specular.exr",      "alpha.exr",
                                                           "profiles.exr", "index.exr",         "profiles.csv",
                                                           "brdfs.txt",    "template_texel.exr"};

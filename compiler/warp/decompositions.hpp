@@ -1,5 +1,5 @@
-// This file decomposes small dense matrices. It is separate, because its templates take longer to compile
-// than the rest of the folder.
+// This file decomposes small dense matrices. It is a separate file, because its templates take longer to
+// compile than the rest of the folder.
 #pragma once
 
 #include <Eigen/Core>

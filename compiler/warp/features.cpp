@@ -11,7 +11,7 @@ namespace remap {
 namespace {
 
 constexpr double kReferenceFloor =
-    0.03;  // reflectance per steradian below which differences are not amplified
+    0.03;  // for darker reflectances, per steradian, differences are not amplified
 
 Eigen::VectorXd weights_of(const std::vector<QuadratureDirection>& directions,
                            const Eigen::VectorXd& reference, AppearanceDistance distance) {
@@ -29,7 +29,7 @@ Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<Quadratur
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 
-// Projects both tables onto the leading singular vectors of their common space.
+// Projects both tables onto the leading singular vectors of the space that both span.
 FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& target,
                                AppearanceDistance distance) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();
@@ -50,7 +50,7 @@ FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& t
     columns.middleCols(1 + 3 * nodes, nodes) = target_table.base;
   }
   columns = weights.asDiagonal() * columns;
-  // Only the coordinates of the columns are needed, not the left singular vectors themselves.
+  // The coordinates of the columns suffice. The left singular vectors are not needed.
   const auto [values, vectors] = symmetric_eigen(columns.transpose() * columns);
   const Eigen::VectorXd strengths = values.tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
   const Eigen::MatrixXd features = strengths.asDiagonal() * vectors.rightCols(kFeatureBasis).transpose();

@@ -1,6 +1,6 @@
-// This file computes appearance features: vectors whose Euclidean distance is the appearance distance of two
-// reflectances, for any model or table. features.cpp has the closed forms, and sampled_features.cpp the
-// features by samples.
+// This file computes appearance features. These are vectors, and their Euclidean distance is the appearance
+// distance of two reflectances. They exist for any model or table. features.cpp has closed formulas, and
+// sampled_features.cpp has features from samples.
 #pragma once
 
 #include <variant>
@@ -31,10 +31,10 @@ struct SeparableFeatures {
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
-// A SampledFeatures holds features from samples of reflectance, for tables and for exact Fresnel reflectance.
-// Samples are at the directions of half_vector_quadrature() or at the radii of profiles.
+// A SampledFeatures holds features from samples of reflectance. They are for tables and for exact Fresnel
+// reflectance. Samples are at the directions of half_vector_quadrature(), or at the radii of profiles.
 struct SampledFeatures {
-  std::vector<double> radii;  // union of both materials; empty for reflectances
+  std::vector<double> radii;  // radii of both materials; empty for reflectances
   Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
   Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels
   LobeTable lobes;            // for parametric materials; empty for tables
@@ -62,25 +62,26 @@ Eigen::VectorXd features_of(const AppearanceFeatures& features, const WarpTexel&
 Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const MaterialRef& material,
                                 const std::vector<std::uint32_t>& texels);
 
-// Returns the square roots of the weights of the directions of half_vector_quadrature() for `distance`
-// between reflectances. Features are compressed from these weighted samples and can be tested against them.
+// Returns the square roots of the weights of the directions of half_vector_quadrature(). They belong to
+// `distance` between reflectances. Features are compressed from samples with these weights, so tests compare
+// them with such samples.
 Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& target,
                                   AppearanceDistance distance);
 
-// Returns the samples of a texel, which features by samples compare. These are the reflectance at every
-// direction, or the profile at every radius, of red, green and blue.
+// Returns the samples of a texel that SampledFeatures compares. These are the reflectance at every direction,
+// or the profile at every radius, of red, green and blue.
 Eigen::VectorXd samples_of(const SampledFeatures& features, const WarpTexel& texel);
 Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMaterial& material,
                            std::uint32_t entry);
 Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material, std::uint32_t texel);
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 
-// Does the work of appearance_features() by samples. `weights` are direction_weights(), which profiles do not
-// use.
+// Does the work of appearance_features() for SampledFeatures. `weights` are direction_weights(), which
+// profiles do not need.
 FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& target,
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 
-// Returns the mean reflectance over kReferenceTexels texels and all channels, at every direction, by samples.
+// Returns the mean reflectance at every direction, over kReferenceTexels texels and all channels.
 Eigen::VectorXd mean_of_samples(const MaterialRef& material);
 
 }  // namespace remap

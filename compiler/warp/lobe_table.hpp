@@ -1,4 +1,5 @@
-// This file tabulates a model's specular lobe over directions and alpha, to compute features of parameters.
+// This file tabulates the specular lobe of a model over directions and alpha. Features are computed from this
+// table.
 #pragma once
 
 #include <vector>

@@ -79,7 +79,8 @@ std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_
     if (const std::size_t texel = i * count / wanted + i * 61 % step; material.takes_part(texel))
       texels.push_back(static_cast<std::uint32_t>(texel));
   if (!texels.empty()) return texels;
-  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)  // fills the rest if few texels are used
+  // None of these texels is used, so take the first texels that are.
+  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)
     if (material.takes_part(i)) texels.push_back(static_cast<std::uint32_t>(i));
   return texels;
 }

@@ -21,15 +21,15 @@ struct WarpMaterial {
   std::string name;  // name for messages
   BrdfModel model;   // model of the specular lobe; GGX with Schlick's Fresnel by default
   std::vector<WarpTexel> texels;
-  bool is_dielectric = false;  // as in MapModel: reflectance is not linear in specular
+  bool is_dielectric = false;  // true if reflectance is not linear in specular, as in MapModel
 };
 
 // A TabulatedMaterial has texels that are entries of a table. These are measured BRDFs, or radially symmetric
 // scattering profiles P(r) of the diffuse component of a BSSRDF (Song et al. 2009).
 struct TabulatedMaterial {
   std::string name;  // name for messages
-  // These are the radii of profiles in increasing order, above 0. For BRDFs there are none: their samples are
-  // at the directions of half_vector_quadrature().
+  // These are the radii of profiles in rising order, above 0. They are empty for BRDFs, whose samples are at
+  // the directions of half_vector_quadrature().
   std::vector<double> radii;
   Eigen::MatrixXf samples;             // red, then green, then blue; one column per entry; finite, at least 0
   std::vector<std::uint32_t> entries;  // entry of each texel, row-major; a texel without an entry is skipped
@@ -67,13 +67,13 @@ struct MapFrame {
   std::size_t width = 0, height = 0;
 };
 
-// Returns at most `limit` used texels, evenly spread over the list and scattered, so that they do not form
-// columns of a map.
+// Returns at most `limit` used texels. They are evenly spread over the list, with random offsets, so that
+// they do not form columns of a map.
 std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit);
 
 // A StrokePair is a region that is marked in both materials: indices of texels.
 struct StrokePair {
-  std::vector<std::uint32_t> source, target;  // `target`: in the template
+  std::vector<std::uint32_t> source, target;  // `target` is in the template
   std::string color = {};  // `#rrggbb` if the strokes were painted in colors; messages show it
 };
 // Returns `stroke 2`, or `stroke #ff0000`.
@@ -89,8 +89,9 @@ struct Overlap {
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
                         std::size_t stroke, std::size_t texel_count);
 
-// Throws kInput for a material without used texels, a stroke without used texels, an index out of range and a
-// stroke that lies within another. Throws kUsage without strokes. Strokes may overlap partly.
+// Throws kInput for a material without used texels, a stroke without used texels, an index out of range, and
+// a stroke that lies inside another stroke. Throws kUsage if there are no strokes. Strokes may overlap
+// partly.
 void require_valid(const MaterialRef& source, const MaterialRef& target,
                    const std::vector<StrokePair>& strokes);
 

@@ -1,6 +1,6 @@
-// This file reads measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half
-// angles, 90 difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all
-// little-endian.
+// This file reads measured BRDFs of the MERL database (Matusik et al. 2003). A file has three 32-bit counts
+// (90 half angles, 90 difference angles, 180 azimuths). Then it has a 64-bit value of red for each cell, then
+// of green, then of blue. All numbers are little-endian.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,7 +29,7 @@ std::size_t cell(double share, std::int32_t count) {
   return static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(share * count), 0, count - 1));
 }
 
-// Returns a cell. The grid of half angles is uniform in their square root.
+// Returns the cell of a direction. Half angles have cells of equal size in the square root of the angle.
 std::size_t cell_of(const QuadratureDirection& direction) {
   const std::size_t half = cell(std::sqrt(direction.half_angle / (pi / 2.0)), kCounts[0]),
                     difference = cell(direction.difference_angle / (pi / 2.0), kCounts[1]),
@@ -53,7 +53,7 @@ std::vector<float> read_merl(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < kScales.size(); ++c)
     for (const QuadratureDirection& direction : half_vector_quadrature()) {
       const double value = kScales[c] * values[c * kCells + cell_of(direction)];
-      // A value above the largest float is as damaged as an infinite one.
+      // If a value is above the largest float, the file is as damaged as with an infinite value.
       const bool is_measured = value > 0.0 && value <= std::numeric_limits<float>::max();
       samples.push_back(is_measured ? static_cast<float>(value) : 0.0f);
     }

@@ -1,5 +1,5 @@
-// This file finds the template texel closest to a position. All results are reflectances of the template (An
-// et al. 2011, principle 5).
+// This file finds the texel of the template that is closest to a position. So all results are reflectances of
+// the template (An et al. 2011, principle 5).
 #pragma once
 
 #include <cstdint>

@@ -56,7 +56,7 @@ int nearest_point(const Points& points, const Eigen::RowVectorXd& position) {
 Range extent_of(const Points& positions, Eigen::Index axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    low = std::min(low, positions(i, axis));  // comparisons with NaN change neither
+    low = std::min(low, positions(i, axis));  // comparisons with NaN change neither `low` nor `high`
     high = std::max(high, positions(i, axis));
   }
   return {low, high};

@@ -1,5 +1,5 @@
-// This file computes occupancy. It represents all texels of a material by a few hundred points, so that a
-// rare appearance has the same weight as a frequent one (An et al. 2011, section 3.2).
+// This file represents all texels of a material by a few hundred points (its occupancy). A rare appearance
+// then has the same weight as a frequent one (An et al. 2011, section 3.2).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uin
 struct Occupancy {
   Points points;                          // centroids of the bins with four texels or more
   Eigen::VectorXd texel_count;            // number of texels of each point
-  std::vector<std::vector<int>> strokes;  // for each stroke, the points with one of its texels; at least one
+  std::vector<std::vector<int>> strokes;  // for each stroke, at least one point with texels of the stroke
   double spacing = 0.0;                   // width of a bin
 };
 

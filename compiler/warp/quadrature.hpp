@@ -8,11 +8,12 @@
 namespace remap {
 
 struct QuadratureDirection {
-  // Angles of half vector and difference vector are in radians: 0 to pi / 2, 0 to pi / 2, 0 to pi.
+  // Angles of the half vector and of the difference vector are in radians. They are 0 to pi / 2, 0 to pi / 2,
+  // and 0 to pi.
   double half_angle = 0.0, difference_angle = 0.0, azimuth = 0.0;
   LocalGeometry geometry{};
   double weight =
-      0.0;  // solid angles of both directions times the cosine of the light, up to a constant factor
+      0.0;  // solid angles of both directions times the cosine of the light, apart from a constant factor
 };
 
 // Returns 349 pairs of directions in coordinates of half and difference vector (Rusinkiewicz 1998), which

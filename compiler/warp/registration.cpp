@@ -9,7 +9,7 @@ namespace remap {
 namespace {
 
 constexpr Eigen::Index kCentres = 80;
-constexpr double kWidth = 1.2;  // in RMS radii
+constexpr double kWidth = 1.2;  // in units of the RMS radius
 constexpr int kSteps = 25;
 constexpr double kFirstSigma = 0.4, kLastSigma = 0.05;
 constexpr int kScalingRounds = 8;
@@ -18,8 +18,8 @@ constexpr double kStrokeWeight = 1.5;
 constexpr double kBending = 10.0;
 constexpr double kPrior = 0.3;
 
-// Samples the farthest points: the first point is the farthest from the mean, each further point the farthest
-// from all previous ones.
+// Samples points that are far apart. The first point is the farthest from the mean. Each further point is the
+// farthest from all previous points.
 Points farthest_points(const Points& points, Eigen::Index wanted) {
   const Eigen::Index count = std::min(wanted, points.rows());
   Points chosen(count, points.cols());
@@ -36,8 +36,8 @@ Points farthest_points(const Points& points, Eigen::Index wanted) {
 
 Points rows_of(const Points& points, const std::vector<int>& rows) { return points(rows, Eigen::all); }
 
-// A SoftMatch holds soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al.
-// 2018). `mass` is the degree to which each moved point is matched (about 1 / count), and `target` the
+// A SoftMatch holds soft matches between two sets of points, by unbalanced Sinkhorn scaling (Chizat et al.
+// 2018). For each moved point, `mass` is the degree of the match (about 1 / count), and `target` is the
 // matched position.
 struct SoftMatch {
   Eigen::VectorXd mass;
@@ -63,14 +63,15 @@ SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
   return match;
 }
 
-// A Pull says how strongly and where to each point is attracted: the sums of weights and of weighted targets.
+// A Pull states how strongly each point is attracted, and where to. It holds sums of weights and of weighted
+// targets.
 struct Pull {
   Eigen::VectorXd weight;
   Points weighted;
 };
 
 // Computes how points are attracted. All points of strokes have the same weight. The masses are not
-// normalised, so that strokes far from their partners and points without a match have less effect.
+// normalised. So strokes far from their partners have less effect, and so have points without a match.
 Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
   const SoftMatch all = match_softly(moved, sets.target.points, sigma);
   Pull pull{all.mass, all.mass.asDiagonal() * all.target};

@@ -1,5 +1,5 @@
-// This file computes the warp from strokes and occupancy: an affine map from the strokes, then an annealed
-// registration of both point sets with a bending prior.
+// This file computes the warp from strokes and points. Strokes give an affine map. From there, both sets of
+// points are registered by annealing, with a bending prior.
 #pragma once
 
 #include <vector>
@@ -23,9 +23,9 @@ Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace
 // Returns the mean position of the finite texels of each stroke, one row per stroke.
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
-// Solves least squares over the centres of strokes plus a prior times |linear - common axes|^2. The prior
-// determines directions that the strokes do not fix. It is strong (0.3), so that a registration starts close
-// to the common axes.
+// Fits the centres of strokes by least squares, with the prior |linear - common axes|^2. The prior determines
+// directions that the strokes leave open. Its weight is high (0.3), so that a registration starts close to
+// the common axes.
 AffineMap affine_from_strokes(const PointSets& sets);
 
 // Computes a SmoothWarp with 80 centres of width 1.2 in 25 steps with sigma from 0.4 to 0.05. Each step

@@ -1,4 +1,4 @@
-// This file computes features by samples, for every model and table without a closed form.
+// This file computes features from samples, for every model and table without a closed formula.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMate
   return radii;
 }
 
-// Returns r dr of equation (5) of An et al. 2011, by trapezoids.
+// Returns r dr in equation (5) of An et al. 2011, by the trapezoidal rule.
 Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   Eigen::VectorXd measure(static_cast<Eigen::Index>(radii.size()));
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -36,7 +36,8 @@ Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   return measure;
 }
 
-// Returns one channel of a profile at a radius: linear, constant up to the first sample, 0 beyond the last.
+// Returns one channel of a profile at a radius. The profile is linear between samples, constant before the
+// first and 0 after the last.
 double profile_at(const std::vector<double>& radii, const float* samples, double radius) {
   const auto above = std::lower_bound(radii.begin(), radii.end(), radius);
   if (above == radii.end()) return 0.0;
@@ -47,7 +48,7 @@ double profile_at(const std::vector<double>& radii, const float* samples, double
   return value(i - 1) + share * (value(i) - value(i - 1));
 }
 
-// Builds the features except their basis.
+// Makes the features without their basis.
 SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, AppearanceDistance distance,
                          const Eigen::VectorXd& weights) {
   SampledFeatures frame;

@@ -151,8 +151,8 @@ struct Surroundings {
   double flat = 0.0;    // texels with three or more neighbors of the same cluster
   double beside = 0.0;  // texels with another stroke within six texels
   double at_rim = 0.0;  // texels with a larger stroke within six texels
-  double close = 0.0;   // for each stroke, the number of texels near which it is the largest stroke
-  // number of texels beside which this is the largest stroke
+  double close = 0.0;   // texels with a larger stroke within two texels
+  // For each stroke, the number of texels whose largest stroke within six texels it is.
   std::array<std::size_t, kNoCluster + 1> rims = {};
 };
 
@@ -267,7 +267,8 @@ std::size_t nearest_stroke(const std::vector<ColorStroke>& strokes, Color color)
   return nearest;
 }
 
-// Throws kInput for a stroke of `strokes` that does not match one of `others` in both directions.
+// Throws kInput if a stroke of `strokes` has no partner in `others`. Each of two partners must have the
+// closest color to the other.
 void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& image,
                       const std::vector<ColorStroke>& others, const fs::path& other_image) {
   for (std::size_t k = 0; k < strokes.size(); ++k) {

@@ -1,5 +1,5 @@
-// This file reads strokes, which mark corresponding regions of two materials, from masks, boxes or paintings.
-// Images of strokes must have the size of the material's maps.
+// This file reads strokes, which mark regions of two materials that belong together. Strokes come from masks,
+// boxes or paintings. Images of strokes must have the size of the material's maps.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,9 @@ namespace remap {
 // and the errors of read_stroke_image() and require_background().
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material);
 
-// Parses `x0,y0,x1,y1`: texels from the first corner up to but excluding the second. Rows are counted from
-// the top. Throws kUsage for other text and for a box that is empty or exceeds the material.
+// Parses `x0,y0,x1,y1`, which means texels from the first corner to the second corner, without the second.
+// Rows are counted from the top. Throws kUsage for other text, and for a box that is empty or larger than the
+// material.
 std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material);
 
 // Returns one pair for each color except the background, in the row-major order of their first texels in the
@@ -38,8 +39,8 @@ using StrokeChannel = std::function<void(const std::vector<float>& values, bool 
 void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
                        const StrokeChannel& use);
 
-// Throws kInput with the name of the image if `marked` is more than three quarters of the texels, because
-// such an image is most likely inverted.
+// Throws kInput with the name of the image if `marked` is more than three quarters of the texels. Such an
+// image is most likely inverted.
 void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material);
 
 }  // namespace remap

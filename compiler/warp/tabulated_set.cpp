@@ -17,7 +17,7 @@
 namespace remap {
 namespace {
 
-// This many BRDFs suffice: a file has 33 MB on disk, and the database has 100 of them.
+// More BRDFs are not needed. A file has 33 MB on disk, and the database has 100 of them.
 constexpr std::size_t kMostBrdfs = 10'000;
 
 namespace fs = std::filesystem;
@@ -56,10 +56,10 @@ std::vector<std::size_t> profile_columns(const std::vector<std::string>& names, 
       columns.push_back(column);
     }
     if (radii.size() < 2 || radii != material.radii)
-      throw input_error(material.table.string() +
-                        ": requires columns named R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, with the "
-                        "same two or more radii for each; the first column is " +
-                        (names.empty() ? "missing" : "'" + names.front() + "'"));
+      throw input_error(
+          material.table.string() + ": has no profiles, because the first column is " +
+          (names.empty() ? "missing" : "'" + names.front() + "'") +
+          " (name the columns R@RADIUS, G@RADIUS and B@RADIUS, or Y@RADIUS, for two or more radii)");
   }
   return columns;
 }

@@ -18,7 +18,7 @@ bool is_base_color(Role role) { return role == Role::kBaseColor; }
 bool is_specular(Role role) { return role == Role::kSpecular; }
 bool is_metallic(Role role) { return role == Role::kMetallic; }
 
-// Returns true if a set has a color of the diffuse lobe and no map of the specular lobe.
+// Returns true if a set has a color of the diffuse lobe, and no map of the specular lobe.
 bool is_albedo(const FoundSet& set) {
   const auto has = [&](bool (*wanted)(Role)) { return !uses(set, wanted).empty(); };
   return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
@@ -54,8 +54,8 @@ bool add_map(const FoundSet& set, const fs::path& root, Parameter parameter, boo
   return true;
 }
 
-// Requests the maps of the specular workflow if they exist. Otherwise it requests the maps of the metallic
-// workflow, and otherwise the diffuse map.
+// Requests the maps of the specular workflow if the set has them. Otherwise, requests the maps of the
+// metallic workflow. If these are missing, too, requests the diffuse map.
 TextureSetRequest request_of(const fs::path& folder, const FoundSet& set) {
   TextureSetRequest request;
   const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {

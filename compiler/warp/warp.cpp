@@ -12,15 +12,16 @@
 namespace remap {
 namespace {
 
-// The source only gives points, but results are texels of the template. So more template texels are used.
+// More texels of the template than of the source are used, because results are texels of the template, and
+// the source only gives points.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
-// These are limits of copy_rms_error().
+// These are the limits of copy_rms_error().
 constexpr std::size_t kMostSampledSources = std::size_t{1} << 14, kMostCopies = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
-// A Selection holds the texels that are used for the match, and strokes as indices into them.
+// A Selection holds the texels that the match uses, and strokes as indices into these texels.
 struct Selection {
   std::vector<std::uint32_t> texels;
   StrokeTexels strokes;
@@ -33,7 +34,7 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   std::vector<char> wanted(count, 0);
   const std::size_t step = (count + limit - 1) / limit;
   for (std::size_t i = 0, block = 0; i < count; i += step, ++block)
-    // varies the place in each step, so that samples do not form columns
+    // each step has another offset, so that samples do not form columns
     wanted[std::min(i + block * 61 % step, count - 1)] = 1;
   for (const StrokePair& stroke : strokes)
     for (const std::uint32_t texel : stroke.*side) wanted[texel] = 1;
@@ -70,7 +71,8 @@ double rms_distance(const Points& a, const Points& b, std::size_t* worst = nullp
   return std::sqrt(squares.mean());
 }
 
-// Returns the fraction of template points that have the image of a source point within one bin.
+// Returns the fraction of template points that have the image of a source point at a distance of at most one
+// bin.
 double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
   const Points images = images_of(warp, sets.source.points);
   const Points& goal = sets.target.points;
@@ -201,7 +203,7 @@ double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const Warp
   std::vector<WarpTexel> copied, compiled;
   for (const std::uint32_t texel : copy_exactly(fit, from, to)) copied.push_back(to.texels[texel]);
   for (const WarpTexel& texel : from.texels) compiled.push_back(evaluate_warp(fit.compiled, texel));
-  // The unit of the coordinates is the template's spread.
+  // Coordinates are relative to the spread of the template.
   const Points difference =
       positions_of(fit.target_coordinates(), compiled) - positions_of(fit.target_coordinates(), copied);
   return std::sqrt(difference.rowwise().squaredNorm().mean());

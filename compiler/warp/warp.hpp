@@ -1,6 +1,6 @@
-// This file computes appearance warps after An et al. 2011. From two materials and strokes it makes a
+// This file computes appearance warps after An et al. 2011. From two materials and strokes, it makes a
 // converter that gives the source the reflectance of the template. The steps are features, coordinates,
-// points, registration, table.
+// points, registration and table.
 #pragma once
 
 #include <string>
@@ -17,17 +17,17 @@ struct WarpDiagnostics {
   int dimensions = 0;                                // number of dimensions in the warp
   double source_stress = 0.0, target_stress = 0.0;   // stress with `dimensions` dimensions
   double coordinates_error = 0.0;  // the larger Placement::fit_error of both materials, in radii
-  // number of dimensions that strokes determine; the prior determines the other dimensions
+  // number of dimensions that strokes determine; the prior determines the others
   int fixed_directions = 0;
   double fold_share = 0.0;  // fraction of source texels where the warp folds
   double coverage = 0.0;    // fraction of the template's occupied bins that the result uses
-  // These are RMS distances in template radii between the moved centres of the source's strokes and the
-  // centres of the template's strokes. The first is after the warp, the second after only the affine map.
+  // These are RMS distances between the moved centres of the source's strokes and the centres of the
+  // template's strokes, in template radii. The first is after the warp, the second after the affine map only.
   double stroke_distance = 0.0;
   double stroke_contradiction = 0.0;
   std::size_t worst_stroke = 0;                          // index of the stroke with the largest distance
   std::vector<std::string> strokes;                      // names of the strokes, for messages
-  std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
+  std::size_t source_left_out = 0, target_left_out = 0;  // numbers of texels that are not finite
   Overlap shared;                                        // the largest overlap in either material
 };
 
@@ -60,7 +60,7 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes,
                  AppearanceDistance distance = AppearanceDistance::kRelative, bool exact = false);
 
-// Returns, for every source texel, the template texel that is closest to its image (for `--copy` and tests).
+// Returns, for every source texel, the template texel closest to its image. `--copy` and tests use this.
 // Texels that are not finite get kNoTexel.
 inline constexpr std::uint32_t kNoTexel = ~std::uint32_t{0};
 std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,

@@ -28,9 +28,9 @@ Points images_of(const SmoothWarp& warp, const Points& points);
 // Returns the factors exp(...) of a SmoothWarp: points x centres.
 Eigen::MatrixXd gaussians(const Points& points, const Points& centres, double width);
 
-// Returns the fraction of `weights` at points where the warp folds. At these points its orientation differs
-// from the orientation at most points. The orientation is the sign of the determinant of its Jacobian, by
-// central differences.
+// Returns the fraction of `weights` at points where the warp folds. There, its orientation differs from the
+// orientation at most points. The orientation is the sign of the determinant of the Jacobian, which central
+// differences give.
 double fold_share(const SmoothWarp& warp, const Points& points, const Eigen::VectorXd& weights);
 
 }  // namespace remap

@@ -14,7 +14,7 @@ namespace {
 void set_box(ParameterTable& table, const Points& positions) {
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
     const auto [low, high] = extent_of(positions, k);
-    // The box has a margin along axes without extent.
+    // Axes without extent get a margin.
     const double margin = std::max(1e-3 - 0.5 * (high - low), 0.0);
     table.low.push_back(static_cast<float>(low - margin));
     table.high.push_back(static_cast<float>(high + margin));
@@ -119,14 +119,14 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Parameter
     for (std::size_t k = 0; k < dimension; ++k) {
       const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
       const double place = (positions(i, static_cast<Eigen::Index>(k)) - low) / (high - low) * last;
-      first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // the place is not NaN
+      first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // `place` is not NaN here
     }
     std::size_t run = 1, cell = 0;
     for (std::size_t k = 0; k < dimension; ++k, run *= nodes) cell += first[k] * run;
     is_near[cell] = 1;
   }
-  // A cell is marked at its first node. Its corners and their neighbors lie from one step before this node to
-  // two steps after it.
+  // A cell is marked at its first node. Its corners and their neighbours are the nodes from one step before
+  // this node to two steps after it.
   std::size_t run = 1;
   for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
     const std::vector<char> before = is_near;
@@ -143,7 +143,7 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Parameter
   return found;
 }
 
-// Assigns to every unknown node the texel of the known node that is the fewest steps away.
+// Gives every unknown node the texel of the known node that is the fewest steps away.
 void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front, std::size_t nodes) {
   while (!front.empty()) {
     std::vector<std::uint32_t> next;
@@ -162,8 +162,9 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
   }
 }
 
-// Finds the texel closest to the image of every node that source texels look up. The other nodes, often most
-// of the box, copy the result of the closest such node, because the warp is undefined far from the source.
+// Finds the texel closest to the image of every node that source texels look up. The remaining nodes, often
+// most of the box, copy the result of the closest of these nodes, because the warp is undefined far from the
+// source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {
   const std::vector<std::uint32_t> near = nodes_around(positions, table);

@@ -1,5 +1,6 @@
-// Each child process has a thread that forks it, reads its output and reaps it. The kernel reports the death
-// of a parent when the thread that forked dies. The thread must therefore live as long as the child.
+// This file runs child processes. Each child has a thread that forks it, reads its output and reaps it. When
+// this thread dies, the kernel tells the child that its parent is dead. So the thread must live as long as
+// the child.
 #include "worker/child_process.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ constexpr std::size_t kMostLog = 8192;          // bytes of standard error that 
 constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
 constexpr std::size_t kLongestLine = 16 << 20;  // far above an answer of a few kilobytes
 constexpr std::size_t kMostUnread = 64 << 20;   // bytes of lines that wait to be read
-constexpr int kWatchMilliseconds = 20;          // longest delay until the end of a process is noticed
+constexpr int kWatchMilliseconds = 20;          // longest delay until somebody notices the end of a process
 
 struct Pipe {
   int read = -1, write = -1;
@@ -79,7 +80,7 @@ bool has_in_environment(const std::filesystem::path& process, const std::string&
   }
 }
 
-// Returns processes that have `mark` and whose names under /proc are numbers.
+// Returns the processes that have `mark` in their environment.
 std::vector<pid_t> marked_processes(const std::string& mark) {
   std::vector<pid_t> found;
   std::error_code ignored;
@@ -91,8 +92,8 @@ std::vector<pid_t> marked_processes(const std::string& mark) {
   return found;
 }
 
-// Kills processes that left the group (setsid). Repeats this while they start new ones. Dead processes and
-// zombies have no environment.
+// Kills processes that left the group (setsid), and repeats this while they start new processes. Dead
+// processes and zombies have no environment, so they are not found.
 void kill_marked(const std::string& mark) {
   constexpr int kMostRounds = 100;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -103,8 +104,8 @@ void kill_marked(const std::string& mark) {
   }
 }
 
-// A PipeSignalBlocked blocks and consumes SIGPIPE. Writing to a process that has ended raises this signal,
-// which would end this program.
+// A PipeSignalBlocked blocks and consumes SIGPIPE. This signal is raised when the program writes to a process
+// that has ended, and it would end the program.
 class PipeSignalBlocked {
  public:
   PipeSignalBlocked() {
@@ -165,7 +166,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
     id_ = ::fork();
     if (id_ == 0) become(parent, arguments.data(), input.read, output.write, errors.write);
     failure = id_ < 0 ? errno : 0;
-    if (id_ > 0) ::setpgid(id_, id_);  // both processes call this; the first call has the effect
+    if (id_ > 0) ::setpgid(id_, id_);  // both processes call this; only the first call has an effect
     for (int end : {input.read, output.write, errors.write}) ::close(end);
     input_ = input.write;
     output_ = output.read;
@@ -207,8 +208,8 @@ void ChildProcess::watch() {
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == id_;
     const std::lock_guard lock(mutex_);
-    // The child's own children must be killed before the child is reaped, because until then no other process
-    // group can get its number.
+    // Kill the child's own children before the child is reaped. Until then, no other process group can get
+    // its number.
     if (gone)
       ::kill(-id_, SIGKILL);
     else
@@ -252,7 +253,7 @@ void ChildProcess::take_output(std::string_view bytes) {
   changed_.notify_all();
 }
 
-// Kills the group and drops its output from here on, because processes outside of the group may still write.
+// Kills the group. From here on, drops its output, because processes outside of the group may still write.
 void ChildProcess::stop_for(const char* fault) {
   fault_ = fault;
   lines_.clear();

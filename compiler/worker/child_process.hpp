@@ -1,4 +1,4 @@
-// This file runs a program next to this one. It exchanges lines with it, keeps the end of its log, and never
+// This file runs another program. It exchanges lines with this program, keeps the end of its log, and never
 // leaves it running.
 #pragma once
 
@@ -23,14 +23,15 @@ class ChildProcess {
     kLate,   // nothing arrived in time
   };
 
-  // Starts `script` by /bin/sh, in its own process group, so that a Ctrl-C at the terminal does not reach it.
+  // Starts `script` by /bin/sh, in its own process group, so that Ctrl-C at the terminal does not reach it.
   // The kernel kills the process when this program ends in any way. The process and everything that it starts
-  // share the environment variable REMAP_CHILD, which identifies processes that have left the group. Throws
+  // have the environment variable REMAP_CHILD, by which processes that left the group are found. Throws
   // kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes the input of the process, waits `kGrace` for it to end, then calls end(). It cannot reach
-  // descendants that clear their environment. If this program is killed itself, only the process itself ends.
+  // Closes the input of the process, waits up to `kGrace` until it ends, and then calls end(). Descendants
+  // that clear their environment are not found. If somebody kills this program, only the process itself ends,
+  // not its descendants.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -38,21 +39,21 @@ class ChildProcess {
   // Returns false if the process no longer reads.
   bool write_line(const std::string& line);
 
-  // Reads the next line of its standard output, without the line break.
+  // Reads the next line of the process's standard output, without the line break.
   Reading read_line(Clock::time_point deadline, std::string* line);
 
   // Adds a line of output that is not an answer to the log.
   void note(const std::string& line);
 
-  // Describes how the process ended: `died with signal 9`, `ended with exit code 3`. If it is still running:
-  // `closed its input`.
+  // Describes how the process ended: `died with signal 9` or `ended with exit code 3`. If it still runs,
+  // returns `closed its input`.
   std::string ending();
 
-  // Returns the last lines of its standard error, `A | B | C`, or an empty text if there are none.
+  // Returns the last lines of the process's standard error as `A | B | C`, or an empty text.
   std::string log_end();
 
-  // Asks the group to end (SIGTERM), so that a program like srun ends what it runs elsewhere. Kills it
-  // `kGrace` later, with everything else that the process has started. Does not wait.
+  // Asks the group to end (SIGTERM), so that a program such as srun can end what it runs on other machines.
+  // After `kGrace`, kills the group and everything else that the process has started. Does not wait.
   void end();
 
   static constexpr std::chrono::milliseconds kGrace{2000};

@@ -41,7 +41,8 @@ fs::path folder_in_memory() {
   return is_writable_folder(memory) ? memory : fs::temp_directory_path();
 }
 
-// Returns the process's mark in a private folder's name, before the six letters that make it unique.
+// Returns the mark of a process in the name of a private folder. It stands before the six letters that make
+// the name unique.
 std::string_view mark_in(std::string_view name) {
   const std::size_t end = name.rfind('-');
   if (!name.starts_with(kPrefix) || end == std::string_view::npos || end <= kPrefix.size()) return {};
@@ -81,7 +82,7 @@ PrivateFolder::PrivateFolder(const fs::path& given) {
   path_ = name;
 }
 
-// Deletes the folder repeatedly, because a process on another machine may write a last file meanwhile.
+// Deletes the folder several times, because a process on another machine may write a last file meanwhile.
 PrivateFolder::~PrivateFolder() {
   constexpr int kTries = 10;
   std::error_code failure;

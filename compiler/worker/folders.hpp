@@ -1,12 +1,12 @@
-// This file gives the folders of workers, renderers and pictures.
+// This file returns the folders of workers, renderers and pictures.
 #pragma once
 
 #include <filesystem>
 
 namespace remap {
 
-// Returns where scripts/renderers installs: `REMAP_RENDERERS`, or `remap/renderers` in the user's data
-// folder.
+// Returns the folder into which scripts/renderers installs: `REMAP_RENDERERS`, or `remap/renderers` in the
+// user's data folder.
 std::filesystem::path renderers_folder();
 
 // Returns the picture cache: `remap/pictures` in the user's cache folder (`XDG_CACHE_HOME`, `~/.cache`).
@@ -16,15 +16,16 @@ std::filesystem::path default_cache_folder();
 // configuration folder. The file may be missing.
 std::filesystem::path own_worker_list();
 
-// Returns remap's own list, found from the running program, or an empty path if it is not installed.
+// Returns remap's own list of workers, which lies relative to the running program, or an empty path if it is
+// not installed.
 std::filesystem::path shipped_worker_list();
 
-// A PrivateFolder is a folder of this process, deleted with the object. Its name contains a mark of this
-// machine and process (core/owner_tag.hpp), so many processes may use the same parent folder. The constructor
-// also deletes the folders of ended processes of this machine.
+// A PrivateFolder is a folder of this process that is deleted with the object. Its name contains a mark of
+// this machine and process (core/owner_tag.hpp), so many processes may use the same parent folder. The
+// constructor also deletes folders that ended processes of this machine left.
 class PrivateFolder {
  public:
-  // Without a parent it is in memory if possible. Throws kOutput if no folder can be made.
+  // If `parent` is empty, the folder is in memory if possible. Throws kOutput if no folder can be made.
   explicit PrivateFolder(const std::filesystem::path& parent = {});
   ~PrivateFolder();
   PrivateFolder(const PrivateFolder&) = delete;

@@ -98,7 +98,7 @@ std::optional<Image> PictureCache::find(const PictureRequest& request, std::stri
 void PictureCache::keep(const PictureRequest& request, const Image& image) const {
   const std::string line = key_opening_ + request.text + "\n";
   const std::string_view picture(reinterpret_cast<const char*>(image.values.data()), picture_bytes(request));
-  // Two threads never keep the same picture at once (WorkerRenderer), so the temporary name is unique.
+  // Two threads never write the same picture at once (WorkerRenderer), so the temporary name is unique.
   write_file(file_of(request), line + checksum_line(line, picture) + std::string(picture), Flush::kNo);
 }
 

@@ -1,4 +1,4 @@
-// This file keeps rendered pictures on disk, so that none is rendered twice.
+// This file keeps rendered pictures on disk, so that no picture is rendered twice.
 #pragma once
 
 #include <filesystem>

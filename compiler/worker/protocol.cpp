@@ -15,7 +15,8 @@
 namespace remap {
 namespace {
 
-// These limit the answer of one renderer. `remapc renderers` lists all models, and parameters become options.
+// These limit the answer of one renderer, because `remapc renderers` lists all models, and parameters become
+// options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -106,7 +107,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   return model;
 }
 
-// Parses an answer. It must have the id of the request. The message for invalid JSON quotes the line.
+// Parses an answer, which must have the id of the request. The message for invalid JSON quotes the line.
 Json parse_answer(const std::string& line, std::int64_t id, const std::string& context) {
   const std::string answered = context + ": answered \"" + plain(line, 80) + "\"";
   Json answer;

@@ -33,18 +33,18 @@ PictureRequest picture_request(const Material& material, const Scene& scene);
 
 // Return lines for a worker's standard input, without the line break.
 std::string describe_line(std::int64_t id, unsigned threads);
-// `mesh` is the file of the shape. It is not used for the sphere.
+// `mesh` is the file of the shape. The sphere needs no file.
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh);
 std::string quit_line(std::int64_t id);
 
-// Returns true if a line is meant as an answer. Lines before the first answer are banners.
+// Returns true if a line is an answer. Other lines before the first answer are banners.
 bool is_answer(const std::string& line);
 
 // Returns the error if the answer reports one. Throws kInput, beginning with `context`, if the line is not
 // the answer to request `id`.
 std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& context);
-// `prefix` is the part of every model's name before the `/`; an empty prefix accepts any.
+// `prefix` is the part before the `/` in the name of every model. An empty prefix accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& context);
 

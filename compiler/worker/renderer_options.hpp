@@ -16,7 +16,7 @@ struct RendererOptions {
   std::vector<std::string> workers;  // NAME=COMMAND
   std::filesystem::path cache;       // if empty, the default folder
   bool no_cache = false;
-  WorkerSettings settings;  // its cache is set in make_renderers()
+  WorkerSettings settings;  // make_renderers() sets its cache
 };
 
 // Adds the options as a rare group. `options` must outlive the callback of `app`.

@@ -23,7 +23,7 @@ class RendererSet final : public Renderer {
   // Returns the names of the built-in renderer and of the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
-  // Returns the built-in models and the models of started workers; starts none.
+  // Returns the built-in models and the models of workers that run already. Starts no worker.
   std::vector<ModelDescription> models() const override;
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
@@ -56,8 +56,9 @@ std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 // Parses `NAME=COMMAND` of the command line. Throws kUsage.
 WorkerEntry parse_worker(const std::string& text);
 
-// Returns all workers by name. If several have the same name, the first is used, in the order `given`, the
-// user's list, the shipped list. Throws kInput for an unreadable list, kUsage for errors in `given`.
+// Returns all workers by name. If several have the same name, the first is used: from `given`, then from the
+// user's list, then from the shipped list. Throws kInput for a list that cannot be read, and kUsage for
+// errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
 }  // namespace remap

@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
   return word + "'";
 }
 
-// These limit parts of a message, to leave room for the place and for how to install the worker.
+// These limit parts of a message, so that it has room for the place and for how to install the worker.
 constexpr std::size_t kLongestWhat = 1000, kLongestLog = 500;
 
 // Returns the last line of a log, which is the most useful.
@@ -116,8 +116,8 @@ std::string Worker::ask(const std::string& line, const std::string& shown) {
 }
 
 Image Worker::render(const PictureRequest& request) {
-  // Every request has its own file name. With one name for all, a late file of a lost worker could be read as
-  // the answer, or an old file that a shared file system has cached.
+  // Every request has its own file name. With one name for all, the program could read a late file of a lost
+  // worker, or an old file that a shared file system has cached.
   const std::filesystem::path picture = own_file("-" + std::to_string(++last_id_) + ".f32"),
                               mesh = own_file(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
@@ -139,7 +139,7 @@ Image Worker::render(const PictureRequest& request) {
 
 std::filesystem::path Worker::own_file(const std::string& ending) const { return files_.string() + ending; }
 
-// Opens the file before asking for its size, so that a network file system asks its server for both.
+// Opens the file before it asks for the size, because a network file system then asks its server for both.
 Image Worker::read_picture(const PictureRequest& request, const std::filesystem::path& path) {
   const auto side = static_cast<std::size_t>(request.resolution);
   const auto channels = static_cast<std::size_t>(request.channels);

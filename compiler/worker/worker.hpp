@@ -16,11 +16,11 @@
 
 namespace remap {
 
-// A WorkerEntry is a registered worker (compiler/adapters/PROTOCOL.md).
+// A WorkerEntry is an entry in a list of workers (compiler/adapters/PROTOCOL.md).
 struct WorkerEntry {
-  std::string name;     // prefix of its models; if empty, any
+  std::string name;     // prefix of the worker's models; if empty, any
   std::string command;  // run by the shell
-  std::string folder;   // folder of its list file: REMAP_WORKER_FOLDER
+  std::string folder;   // folder of the list, which the worker gets as REMAP_WORKER_FOLDER
   std::string install;  // how to install it, shown if it does not start; may be empty
 };
 
@@ -31,7 +31,7 @@ struct WorkerSettings {
   unsigned processes = 0;  // limit of processes of one worker at once; 0: one for each core
   double seconds = 120.0;  // limit for one answer
   unsigned threads = 1;    // number of threads in each process
-  const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
+  const std::atomic<bool>* cancelled = nullptr;  // if true, a wait ends with kInterrupted
   std::function<void()> on_picture;              // called after every picture, from any thread
   // called before the first process starts, because processes use files that must be removed at the end
   std::function<void()> on_start;
@@ -43,8 +43,8 @@ struct WorkerSettings {
   std::chrono::milliseconds pause{1000};
 };
 
-// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time.
-// This is not the fault of the request, so another process may answer it.
+// A LostWorker means that a worker's process has ended, or was ended because it did not answer in time. The
+// request need not be the reason, so another process may answer it.
 class LostWorker : public Error {
  public:
   explicit LostWorker(const std::string& message) : Error(ErrorKind::kInput, message) {}
@@ -62,13 +62,13 @@ class Worker {
 
   const WorkerDescription& description() const { return description_; }
 
-  // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the
-  // picture has forbidden values (picture_fault.hpp). After an answer with an error is_usable() stays true
-  // and the worker can be asked again.
+  // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the picture
+  // has forbidden values (picture_fault.hpp). If the worker answered with an error, is_usable() stays true
+  // and the worker accepts further requests.
   //
-  // Every message about a worker names the worker and the request. It has the end of the worker's log if
-  // the worker was ended, and is cut to remap::kLongestMessage. So no text of a worker makes it longer, and
-  // no control character enters it.
+  // Every message about a worker names the worker and the request. If the worker was ended, the message has
+  // the end of its log. A message has at most remap::kLongestMessage bytes and no control characters,
+  // whatever the worker writes.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 
@@ -77,7 +77,8 @@ class Worker {
   // Sends a line and waits for the answer to it.
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);
-  // Returns the message of an error: the place, what is wrong, and what to do if the error is about a file.
+  // Returns the message of an error: the place, and what is wrong. If the error is about a file, also says
+  // what to do.
   std::string message_of(const std::string& shown, const std::string& what) const;
   // Ends the process and returns a message with the end of its log.
   std::string ended(const std::string& shown, const std::string& what);

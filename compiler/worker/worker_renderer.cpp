@@ -10,9 +10,9 @@
 namespace remap {
 namespace {
 
-// This many processes may be lost for one picture. Losses are counted for each picture, because a machine
-// that fails can lose many processes at once. The last attempt uses a new process. Old processes may all end
-// after the same number of pictures, which would not be the fault of this picture.
+// This many processes may be lost for one picture. Each picture has its own count, because a machine that
+// fails can lose many processes at once. The last attempt uses a new process. Old processes may all end after
+// the same number of pictures, and then the picture is not the reason.
 constexpr int kMostLosses = 3;
 
 // A pause checks this often for an interruption.
@@ -20,7 +20,8 @@ constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// Replaces 0 by a suitable number of processes for this machine, and of threads in each.
+// If a number is 0, replaces it by a suitable number of processes for this machine, or of threads in each
+// process.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.threads = std::max(1u, core_count() / settings.processes);
@@ -29,7 +30,7 @@ WorkerSettings settled(WorkerSettings settings) {
 
 }  // namespace
 
-// A Turn is the right to render one picture. Other threads wait for the same picture.
+// A Turn is the right to render one picture. Other threads that need this picture wait for it.
 class WorkerRenderer::Turn {
  public:
   Turn(const WorkerRenderer& renderer, const PictureRequest& request)
@@ -110,8 +111,8 @@ std::unique_ptr<Worker> WorkerRenderer::idle_worker() const {
   return worker;
 }
 
-// Takes back a worker after its use. A broken worker has then ended, and has returned its licence, before
-// another worker can be started.
+// Takes back a worker after its use. If the worker is broken, ends it and frees its place, so that another
+// worker can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
   if (worker != nullptr && !worker->is_usable()) worker.reset();
   {
@@ -134,8 +135,8 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
   }
 }
 
-// Throws if too many processes were lost for this picture. Otherwise it waits, because the loss of a machine
-// is noticed late.
+// Throws if too many processes were lost for this picture. Otherwise it waits, because it may take time until
+// a failed machine is noticed.
 void WorkerRenderer::accept_loss(const LostWorker& lost, int losses) const {
   if (losses == kMostLosses)
     throw input_error(

@@ -1,5 +1,5 @@
-// This file makes a real renderer usable by sweeps: several processes of one worker, and a cache of the
-// pictures that they made.
+// This file lets sweeps use a real renderer. It runs several processes of one worker, and caches their
+// pictures.
 #pragma once
 
 #include <atomic>
@@ -30,8 +30,8 @@ struct PictureCount {
 
 class WorkerRenderer final : public Renderer {
  public:
-  // Starts one process to get its description; more are started when pictures are requested in parallel.
-  // Throws like Worker, and kOutput if the folder cannot be used.
+  // Starts one process to get its description. More processes start when pictures are requested in parallel.
+  // Throws like Worker, and throws kOutput if the folder cannot be used.
   WorkerRenderer(WorkerEntry entry, WorkerSettings settings);
   ~WorkerRenderer() override;
 
@@ -40,8 +40,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user about pictures of other versions in the cache and about damaged pictures. It
-  // also reports lost processes if there were more than the one in the warning.
+  // Returns remarks for the user about pictures of other versions in the cache, and about damaged pictures.
+  // If there were more lost processes than the one in the warning, reports them, too.
   std::vector<std::string> remarks() const;
 
  private:
@@ -49,8 +49,8 @@ class WorkerRenderer final : public Renderer {
   class Lease;
 
   std::unique_ptr<Worker> start() const;
-  std::unique_ptr<Worker> start_another() const;  // throws if its version differs from the first
-  std::unique_ptr<Worker> idle_worker() const;    // null: the caller may start one
+  std::unique_ptr<Worker> start_another() const;  // throws if its version differs from the first worker's
+  std::unique_ptr<Worker> idle_worker() const;    // null if the caller may start a worker
   void give_back(std::unique_ptr<Worker> worker) const;
   void accept_loss(const LostWorker& lost, int losses) const;
   Image render_anew(const PictureRequest& request) const;
@@ -68,10 +68,10 @@ class WorkerRenderer final : public Renderer {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   mutable std::vector<std::unique_ptr<Worker>> idle_;
-  mutable std::size_t running_ = 0;        // number of processes
+  mutable std::size_t running_ = 0;        // number of running processes
   mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
   mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0}, lost_{0};
-  mutable std::atomic<bool> keeps_{true};  // set to false when a picture cannot be written
+  mutable std::atomic<bool> keeps_{true};  // becomes false when a picture cannot be written
 };
 
 }  // namespace remap

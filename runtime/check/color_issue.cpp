@@ -28,8 +28,8 @@ bool all_are(const Rows& rows, float value) {
       rows, [&](const auto& row) { return std::ranges::all_of(row, [&](float v) { return v == value; }); });
 }
 
-// Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space they read as 0.19 to
-// 0.25, where only a few gems are, or as 0.002 to 0.004, where no material is.
+// Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space, this becomes 0.19 to
+// 0.25, which only a few gems have, or 0.002 to 0.004, which no material has.
 std::optional<ColorIssue> transfer_issue(Transfer transfer, const Rows& linear) {
   constexpr double kMuch = 0.4, kLittle = 0.05;
   const std::vector<float> values = largest_of(linear);
@@ -43,7 +43,7 @@ std::optional<ColorIssue> transfer_issue(Transfer transfer, const Rows& linear) 
                     is_srgb ? Transfer::kLinear : Transfer::kSrgb};
 }
 
-// Finds the same issues as color_issue(), but the text does not state the transfer curve yet.
+// Finds the same issues as color_issue(). The text does not name the transfer curve yet.
 std::optional<ColorIssue> issue_of(Role role, Transfer transfer, const Rows& linear) {
   const bool is_specular = role == Role::kSpecular;
   if (!is_specular && role != Role::kDiffuse && role != Role::kBaseColor) return std::nullopt;

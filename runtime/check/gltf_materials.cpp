@@ -35,7 +35,7 @@ constexpr std::uintmax_t kLargestAsset = std::uintmax_t{4} << 30;  // the limit 
 struct InputRole {
   GltfInput input;
   Role role;
-  bool is_off_at_zero = false;  // a factor of 0 turns the texture off, so ignoring it loses nothing
+  bool is_off_at_zero = false;  // true if a factor of 0 turns the texture off
 };
 
 constexpr std::array<InputRole, 16> kRoles = {{
@@ -112,7 +112,7 @@ bool changes_nothing(std::string_view extension, SpanValue extensions) {
   const auto transmits = [&](std::string_view name) {
     return extensions[name].is(SpanKind::kObject) && !is_off(name, extensions[name]);
   };
-  // A volume is visible only through its surface.
+  // A volume is visible only through a surface that transmits light.
   if ((extension == "KHR_materials_volume" || extension == "KHR_materials_dispersion") &&
       !transmits("KHR_materials_transmission") && !transmits("KHR_materials_diffuse_transmission"))
     return true;
@@ -194,7 +194,7 @@ class GltfMaterials {
     if (info.object == kSpecularExtension) material.gltf.has_specular_map = true;
     const bool is_off_by_factor =
         role.is_off_at_zero && (is_zero_by_default || (!use.factors.empty() && all_are(0.0, use.factors)));
-    // An extension that is off hides the texture, whatever the texture's own factor is.
+    // If an extension is off, its textures are not visible, whatever their own factors are.
     const bool is_unseen = (is_unlit && role.role != Role::kBaseColor) ||
                            (!is_off_by_factor && is_off(info.object, read.text["extensions"][info.object]));
     if (is_unseen) use.factors.clear();
@@ -203,8 +203,8 @@ class GltfMaterials {
     (is_unread ? material.unread : material.uses).push_back(std::move(use));
   }
 
-  // Returns the map of a texture, and adds a new map to the material. Returns nothing, and reports a problem,
-  // if no image is known. It chooses the same images as a conversion.
+  // Returns the map of a texture, and adds it to the material if it is new. If no image is known, returns
+  // nothing and reports a problem. It chooses the same images as a conversion.
   std::optional<std::size_t> map_of(std::size_t texture, CheckedMaterial& material) {
     std::vector<MaterialMap> images;
     if (texture < textures_.size())
@@ -212,7 +212,7 @@ class GltfMaterials {
         if (image < images_.size()) images.push_back(map_of_image(image));
     if (images.empty()) {
       found_.problems.push_back(material.name + ": texture " + std::to_string(texture) +
-                                " has no image that is known here");
+                                " has no image in a known format");
       return std::nullopt;
     }
     MaterialMap map = std::move(images.front());
@@ -269,7 +269,7 @@ class GltfMaterials {
   SpannedJson json_;
   GltfBytes bytes_;
   std::vector<SpanValue> textures_, images_;
-  std::map<std::size_t, fs::path> embedded_;  // files of images that are part of the asset
+  std::map<std::size_t, fs::path> embedded_;  // temporary files of images that are embedded in the asset
 };
 
 }  // namespace

@@ -82,8 +82,8 @@ Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, con
   return Orientation::kUnknown;
 }
 
-// Returns the fraction of texels between 0.15 and 0.85 whose neighbours two texels away are all in this
-// range, too. This ignores edges, because they are thinner.
+// Returns the fraction of texels between 0.15 and 0.85 whose neighbours, two texels away, are all in this
+// range, too. This excludes edges, because they are thinner.
 double share_of_grey_areas(const Plane& plane, int columns, int rows) {
   constexpr int kReach = 2;
   const auto is_grey = [&](int x, int y) {
@@ -108,7 +108,7 @@ std::vector<const Plane*> planes_of(const CheckedMaterial& material, const Mater
   return planes;
 }
 
-// Returns the values of constant channels.
+// Returns the first value of each channel, for constant channels.
 std::vector<float> values_of(const std::vector<const Plane*>& planes) {
   std::vector<float> values;
   for (const Plane* plane : planes) values.push_back(plane->front());
@@ -132,7 +132,8 @@ bool is_first_tile(const CheckedMaterial& material, const MaterialUse& use) {
   return &*first == &use;
 }
 
-// Returns true if all tiles have the value of this tile in every texel. Otherwise no number can replace them.
+// Returns true if all tiles of the map have this tile's value in every texel. Only then can one number
+// replace them.
 bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   const std::vector<float> own = values_of(planes_of(material, use));
   return std::ranges::all_of(material.uses, [&](const MaterialUse& other) {
@@ -142,7 +143,7 @@ bool tiles_are_equal(const CheckedMaterial& material, const MaterialUse& use) {
   });
 }
 
-// Returns the fix that replaces a map of one value by a factor. Factors and options use linear numbers.
+// Returns the fix that replaces a map of one value by a factor. Factors and options are linear numbers.
 Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vector<float> values) {
   if (use.role == Role::kNormal) return "remove the map: it changes nothing";
   const ImageLayout& layout = material.texels(use)->layout;
@@ -176,7 +177,8 @@ std::string swapped(const TexelSample& texels, std::size_t a, std::size_t b) {
   return text;
 }
 
-// Calls `judge(use)` for each use of this material whose image is readable, and once per map and channel.
+// Calls `judge(use)` for each use in this material whose image can be read. Several uses of one map and
+// channel are judged once.
 template <typename Judge>
 void for_uses(const CheckedMaterial& material, Judge judge) {
   std::set<std::pair<std::filesystem::path, Channels>> seen;
@@ -219,15 +221,16 @@ void specgloss_channels(const CheckedMaterial& material, const GltfConsumer*, co
     const std::size_t count = texels.layout.channels.size();
     findings.push_back(
         {rule.name, Confidence::kCertain, map.shown, "A",
-         "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, which " +
-             std::string(role_name(use.role)) + " is read from: it is 1 everywhere",
+         "has " + std::to_string(count) + (count == 1 ? " channel" : " channels") + " and no alpha, so " +
+             std::string(role_name(use.role)) + " is read as 1 everywhere",
          "export it again with four channels, " + std::string(role_name(use.role)) + " in alpha"});
   });
 }
 
 void specular_color(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                     std::vector<MaterialFinding>& findings) {
-  // Ks of MTL is not a reflectance at normal incidence. In a set with metallic, a specular map is a level.
+  // Ks of MTL is not a reflectance at normal incidence. In a set with a metallic map, a specular map is a
+  // specular level.
   const bool has_metallic =
       std::ranges::any_of(material.uses, [](const MaterialUse& use) { return use.role == Role::kMetallic; });
   if (material.kind == MaterialKind::kMtl || has_metallic) return;
@@ -268,8 +271,8 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const int alpha = material.texels(use)->layout.alpha_channel;
     if (is_color && alpha >= 0 &&
         !is_constant(material.texels(use)->channels[static_cast<std::size_t>(alpha)]))
-      return;  // alpha cuts a label of one color out
-    // people use images up to this side instead of a number, so a constant image is intended
+      return;  // alpha cuts out a shape of one color
+    // People use images of up to this side instead of a number, so a constant image is intended.
     constexpr int kSmall = 4;
     const ImageLayout& layout = material.texels(use)->layout;
     if (planes.empty() || std::min(layout.width, layout.height) <= kSmall || !all_are_constant(planes))
@@ -290,7 +293,8 @@ void constant_map(const CheckedMaterial& material, const GltfConsumer*, const Ru
   });
 }
 
-// Finds banding: an 8-bit step at roughness r widens alpha = r^2 by 2 / (255 r), so by 20 % at 10 / 255.
+// Finds banding. At roughness r, an 8-bit step changes alpha = r^2 by a fraction of 2 / (255 r). At r = 10 /
+// 255, this is 20 %.
 void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
              std::vector<MaterialFinding>& findings) {
   for_uses(material, [&](const MaterialUse& use) {
@@ -315,8 +319,8 @@ void banding(const CheckedMaterial& material, const GltfConsumer*, const Rule& r
     if (share < kShare || levels.size() < kLevels) return;
     findings.push_back(
         {rule.name, Confidence::kLikely, material.maps[use.map].shown, channel_text(use),
-         percent(share) + " of its texels vary in " + std::to_string(levels.size()) + " steps up to " +
-             std::to_string(last) + " / 255, each of which widens highlights by 20 % and more",
+         percent(share) + " of its texels have only " + std::to_string(levels.size()) + " values up to " +
+             std::to_string(last) + " / 255; each step widens highlights by 20 % or more",
          "export it again with 16 bits or as half float; no conversion can restore the missing bits"});
   });
 }
@@ -383,7 +387,7 @@ void channel_order(const CheckedMaterial& material, const GltfConsumer*, const R
       findings.push_back({rule.name, Confidence::kLikely, map.shown, channel_text(use),
                           "metallic is read from " + channel_text(use) +
                               (varies ? ", which varies like roughness; " : ", which is constant; ") + name +
-                              " is black and white like metallic",
+                              " is black and white, as metallic usually is",
                           image_fix(material, map, "swap the channels",
                                     "--ch " + shell_word(swapped(texels, *material.channel(use), c)))});
       return;
@@ -403,7 +407,7 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
                         percent(shares.inwards) +
                             " of its normals point into the surface: they are of world or object space, "
                             "not of tangent space",
-                        "bake the map again in tangent space; changing its texels does not do that"});
+                        "bake the map again in tangent space; texremap cannot convert it"});
   });
 }
 
@@ -424,7 +428,7 @@ void normal_orientation(const CheckedMaterial& material, const GltfConsumer* rea
     };
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "G",
-         "its slopes belong to a surface only as " + text(seen) + ", but " +
+         "its slopes fit together only if it is " + text(seen) + ", but " +
              (material.kind == MaterialKind::kGltf ? "glTF has " : "its name or importer states ") +
              text(name),
          image_fix(material, map, "invert its green channel", inversion_of(material, green))});

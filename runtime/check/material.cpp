@@ -17,7 +17,7 @@ namespace {
 // Returns `R` for `R` and for the layer `rough.R`.
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
-// Finds a channel. A grey image of a texture has its value in every color channel.
+// Finds a channel. In a texture, a grey image has its value in every color channel.
 std::optional<std::size_t> channel_of(const TexelSample& texels, Channels channels, bool is_texture) {
   const auto& all = texels.layout.channels;
   if (channels == Channels::kWhole) return 0;
@@ -50,7 +50,7 @@ std::string read_map(MaterialMap& map, bool is_texture) {
 
 std::vector<std::string> CheckedMaterial::read_maps() {
   std::vector<std::string> problems;
-  std::map<std::filesystem::path, MaterialMap> read;  // keyed by the first image
+  std::map<std::filesystem::path, MaterialMap> read;  // keyed by the first image of the map
   for (MaterialMap& map : maps) {
     const std::filesystem::path first = map.file;
     if (const auto known = read.find(first); known != read.end()) {

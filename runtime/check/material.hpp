@@ -17,7 +17,7 @@
 namespace remap {
 
 // A TexelSample holds texels of an image as they are stored. Integers become 0 to 1. A large image is sampled
-// in an even grid of squares, so that neighbours stay neighbours.
+// in squares on an even grid, so that neighbouring texels stay neighbours.
 struct TexelSample {
   int columns = 0;
   int rows = 0;
@@ -40,8 +40,8 @@ struct MaterialMap {
   std::string shown;  // name in messages: the file, or `model.glb: image 2 (metal)`
   std::string name;   // file name, which may show a convention
   std::shared_ptr<const TexelSample> texels = {};  // null if the image cannot be read
-  bool is_embedded = false;                        // `file` is a temporary copy
-  int tile = 0;                                    // number; 0 for a map without tiles
+  bool is_embedded = false;                        // true if `file` is a temporary copy
+  int tile = 0;                                    // number of the tile; 0 for a map without tiles
   std::vector<MaterialMap> others = {};  // further images of the texture; the first readable image is used
 };
 
@@ -50,11 +50,11 @@ struct MaterialUse {
   Role role = Role::kOther;
   std::size_t map = 0;  // index into CheckedMaterial::maps
   Channels channels = Channels::kWhole;
-  std::string slot;             // the map's name in an asset: `metallicRoughnessTexture`
+  std::string slot;             // name of the map in an asset, such as `metallicRoughnessTexture`
   std::vector<double> factors;  // numbers by which an asset multiplies the map; may be empty
   std::string factor_name;      // such as `metallicFactor`
   bool is_neighbour = false;    // true if it belongs to another material in the folder, for comparison
-  // This is the UV set of the map (glTF).
+  // This is the UV set that glTF uses for the map.
   std::size_t tex_coord = 0;
   std::string transform = {};  // text of KHR_texture_transform; may be empty
 };
@@ -68,7 +68,7 @@ struct GltfStatements {
   std::optional<double> specular_factor;  // KHR_materials_specular
   bool has_specular_map = false;
   bool transmits = false;
-  bool has_volume = false;  // glTF has no place for the index of refraction of a volume or of dispersion
+  bool has_volume = false;  // core glTF has no place for the index of a volume or of dispersion
 };
 
 enum class MaterialKind { kFolder, kGltf, kMtl };

@@ -52,12 +52,12 @@ double distance(const Plane& a, const Plane& b, Function f) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Two maps are related by a function if their RMS difference is at most this. It allows a few steps of 8
-// bits, or JPEG compression.
+// Two maps are related by a function if their RMS difference is at most this. It allows for a few steps of 8
+// bits, and for JPEG compression.
 constexpr double kSame = 0.02, kVaries = 0.03;
 
 // Calls `judge(a, b, roughness of a, roughness of b)` for pairs of roughness maps in different channels or
-// files. b may also be an opacity map, because some people use the name alpha for the width.
+// files. b may also be an opacity map, because some people call the width alpha.
 template <typename Judge>
 void for_width_pairs(const CheckedMaterial& material, Judge judge) {
   const auto is_width = [&](const MaterialUse& use) {
@@ -76,8 +76,8 @@ void for_width_pairs(const CheckedMaterial& material, Judge judge) {
     }
 }
 
-// Returns options of oiiotool that take the root of a map's roughness. `power` relates it to the other map,
-// which may hold alpha.
+// Returns options of oiiotool that take a root of a map's roughness. The root comes from `power`, which
+// relates the map to the other map. The other map may hold alpha.
 std::string root_of(const CheckedMaterial& material, const MaterialUse& use, bool is_other_alpha,
                     double power) {
   const auto raised = [&](double exponent) { return "--powc " + numbers_for(material, use, exponent, 1.0); };
@@ -92,8 +92,8 @@ std::string root_of(const CheckedMaterial& material, const MaterialUse& use, boo
 
 }  // namespace
 
-// Finds data maps that are encoded as sRGB. Either the file's tag says so, or another map of the set has the
-// same values in linear form.
+// Finds data maps that are encoded as sRGB, either by the tag of the file, or because another map of the set
+// has the same values in linear form.
 void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                std::vector<MaterialFinding>& findings) {
   std::set<std::filesystem::path> seen;
@@ -172,10 +172,10 @@ void alpha_as_roughness(const CheckedMaterial& material, const GltfConsumer*, co
               {rule.name, Confidence::kCertain, place_of(material, wrong), "",
                "is read as " + std::string(role_name(wrong.role)) + ", but is the " +
                    (squared == 2.0 ? "square" : "fourth power") + " of " + place_of(material, other) + " (" +
-                   std::string(role_name(other.role)) + "): " +
-                   (squared == 2.0 ? "it holds alpha, or the other map is its root" : "it was squared twice"),
+                   std::string(role_name(other.role)) +
+                   "): " + (squared == 2.0 ? "one of them holds alpha" : "it was squared twice"),
                image_fix(material, material.maps[wrong.map],
-                         "keep the other map, or take the root of this one (alpha)",
+                         "keep the other map, or take the root of this map (which is then roughness)",
                          root_of(material, wrong, other.role == Role::kOpacity, squared))});
           return;
         }

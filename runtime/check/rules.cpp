@@ -24,7 +24,8 @@ constexpr std::array kExtensions = {"KHR_materials_specular"sv,
                                     "KHR_materials_dispersion"sv,
                                     "KHR_materials_diffuse_transmission"sv,
                                     "KHR_materials_pbrSpecularGlossiness"sv};
-// These are all extensions except the last one. The lists below are for importers that ignore fewer.
+// This list has all extensions except the last. The lists below are for importers that ignore fewer
+// extensions.
 constexpr std::span kAllButSpecGloss = std::span(kExtensions).first(10);
 constexpr std::array kThree = {"KHR_materials_pbrSpecularGlossiness"sv};
 constexpr std::array kUnreal = {"KHR_materials_volume"sv, "KHR_materials_iridescence"sv,
@@ -52,14 +53,13 @@ constexpr std::array<Rule, 22> kRules = {{
      look::srgb_data},
     {"linear-color", "a color map stored as integers that its file tags as linear", look::linear_color},
     {"specular-color",
-     "specular that is black or white everywhere, or whose F0 only fits another color space",
+     "a specular map that is black or white everywhere, or whose F0 only fits another color space",
      look::specular_color},
-    {"gloss-as-roughness", "a map of roughness that another map of the set shows to be gloss, or the reverse",
+    {"gloss-as-roughness", "a roughness map that holds gloss, or a gloss map that holds roughness",
      look::gloss_as_roughness},
-    {"alpha-as-roughness", "a map of roughness that is a power of another map of the set",
+    {"alpha-as-roughness", "a roughness map that is the square of another map of the set",
      look::alpha_as_roughness},
-    {"channel-order",
-     "a packed map whose channel of metallic varies smoothly while another one is black and white",
+    {"channel-order", "a packed map with metallic in the wrong channel: another channel is black and white",
      look::channel_order},
     {"specgloss-channels", "a map whose name or role needs an alpha channel that the file lacks",
      look::specgloss_channels},
@@ -67,13 +67,11 @@ constexpr std::array<Rule, 22> kRules = {{
     {"metallic-greys", "metallic between 0 and 1 over areas, not only at edges", look::metallic_greys},
     {"factor-zero", "a map times a factor of 0", look::factor_zero},
     {"factor-ignored", "a factor of a map that the given importer ignores", look::factor_ignored},
-    {"normal-space", "a normal map that points away from the surface: of world or object space",
-     look::normal_space},
-    {"normal-orientation",
-     "a normal map whose slopes only fit together with inverted green, contrary to its name",
+    {"normal-space", "a normal map in world or object space instead of tangent space", look::normal_space},
+    {"normal-orientation", "a normal map whose green channel is inverted, contrary to its name",
      look::normal_orientation},
     {"wrong-texture",
-     "a map in the role of another kind: normals as a color, a color as normals, one image in two roles",
+     "a map that is used for something else: normals as a color, a color as normals, one image for two roles",
      look::wrong_texture},
     {"constant-map", "a map of one value, which a number replaces", look::constant_map},
     {"banding", "low roughness in 8 bits, where one step widens highlights visibly", look::banding},
@@ -83,7 +81,7 @@ constexpr std::array<Rule, 22> kRules = {{
     {"ignored-by-reader", "an extension of a glTF material that the given importer does not know",
      look::ignored_by_reader},
     {"unreadable-statement", "a line of an MTL file that convert refuses", look::unreadable_statement},
-    {"exponent-range", "exponents of an MTL file in another range than 0 to 1000", look::exponent_range},
+    {"exponent-range", "exponents of an MTL file that are not in the range 0 to 1000", look::exponent_range},
     {"duplicate-map", "two files of different roles with the same texels", look::duplicate_map},
 }};
 

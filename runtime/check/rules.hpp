@@ -21,19 +21,19 @@ inline constexpr NamedValues<Confidence, 3> kConfidences = {{{Confidence::kCerta
                                                              {Confidence::kLikely, "likely"},
                                                              {Confidence::kPossible, "possible"}}};
 
-// A Fix is the repair of a finding.
+// A Fix describes how to fix what was found.
 struct Fix {
   Fix() = default;
   Fix(std::string in_words, std::string as_command = "")
       : words(std::move(in_words)), command(std::move(as_command)) {}
   Fix(const char* in_words) : words(in_words) {}
 
-  std::string words;  // states what to edit; if there is a command, what the command does
+  std::string words;  // what to edit; if there is a command, what the command does
   // This command can be typed in the folder where texremap was started. It writes into the folder `fixed`. It
   // may be empty.
   std::string command;
-  // If the command converts an asset, these are its file, the folder of results and the options.
-  // unite_conversions() makes one command of all findings.
+  // If the command converts an asset, these are the asset's file, the folder of results, and the options.
+  // unite_conversions() makes one command from all findings.
   std::string asset = {}, output = {};
   std::vector<std::string> options = {};
 
@@ -45,7 +45,7 @@ struct MaterialFinding {
   Confidence confidence = Confidence::kLikely;
   std::string context;  // name of the map or material in messages
   std::string channel;  // such as `G`; empty for the whole map
-  std::string message;  // the observation
+  std::string message;  // what was observed
   Fix fix;
 };
 
@@ -54,7 +54,7 @@ struct GltfConsumer {
   std::string_view name;
   std::string_view title;
   std::span<const std::string_view> ignored;  // extensions of glTF materials that it does not read
-  bool ignores_factors_beside_maps = false;   // applies to metallic and roughness
+  bool ignores_factors_beside_maps = false;   // for metallic and roughness
   bool wants_directx_normals = false;
 };
 // Returns `gltf` (only the core), `unity`, `unreal`, `godot`, `threejs` and `usd`.
@@ -62,7 +62,7 @@ std::span<const GltfConsumer> gltf_consumers();
 
 struct Rule {
   std::string_view name;
-  std::string_view detects;  // the pattern, in words
+  std::string_view detects;  // the pattern in words
   void (*look)(const CheckedMaterial& material, const GltfConsumer* reader, const Rule& rule,
                std::vector<MaterialFinding>& findings);
 };
@@ -76,7 +76,7 @@ std::vector<MaterialFinding> findings_in(const CheckedMaterial& material, const 
 namespace look {
 using Look = void(const CheckedMaterial&, const GltfConsumer*, const Rule&, std::vector<MaterialFinding>&);
 Look linear_color, specgloss_channels, specular_color, constant_map, banding, bad_values, metallic_greys,
-    channel_order, normal_space, normal_orientation, wrong_texture;            // single maps
+    channel_order, normal_space, normal_orientation, wrong_texture;            // rules for single maps
 Look srgb_data, sizes, gloss_as_roughness, alpha_as_roughness, duplicate_map;  // pairs
 Look factor_zero, factor_ignored, index_of_refraction, ignored_by_reader, unreadable_statement,
     exponent_range;  // statements
@@ -93,8 +93,8 @@ bool is_data_role(Role role);
 
 // Returns the folder for the results of a command: `fixed`, with the same subfolders as in the checked path.
 std::filesystem::path fixed_folder(const CheckedMaterial& material);
-// Returns a fix that changes the image of a map by oiiotool. An image inside an asset gets no command,
-// because nothing can put it back.
+// Returns a fix that changes the image of a map by oiiotool. For an image inside an asset, it has no command,
+// because texremap cannot put the image back.
 Fix image_fix(const CheckedMaterial& material, const MaterialMap& map, const std::string& words,
               const std::string& changes);
 // Returns a number for each channel of a map: `value` for the channels of the use, and `otherwise` for the

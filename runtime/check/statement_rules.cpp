@@ -1,4 +1,4 @@
-// This file has the rules that check words and numbers in assets, not texels.
+// This file has the rules that check names and numbers in assets, not texels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::ve
     return std::ranges::all_of(uses, [&](const MaterialUse& use) { return same(use, uses.front()); });
   };
   if (!all_agree([](const auto& a, const auto& b) { return a.tex_coord == b.tex_coord; }))
-    return words + ", when its textures lie on one set of texture coordinates";
+    return words + " (first bring its textures to one set of texture coordinates)";
   if (!all_agree([](const auto& a, const auto& b) { return a.transform == b.transform; }))
     options.emplace_back("--bake");
   if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))
@@ -116,8 +116,8 @@ void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, c
   if (stated.ior && *stated.ior > kMost)
     add(Confidence::kLikely,
         "KHR_materials_ior: ior " + number_text(*stated.ior) +
-            " makes a mirror, which readers without the extension show as plastic",
-        "state the metal as metallicFactor 1 with its color as baseColorFactor, and remove "
+            " makes a mirror, but importers without this extension show plastic",
+        "make it a metal: set metallicFactor to 1 and baseColorFactor to its color, and remove "
         "KHR_materials_ior");
   if (stated.ior && *stated.ior != 0.0 && *stated.ior < kLeast && !stated.transmits)
     add(Confidence::kLikely,
@@ -128,14 +128,13 @@ void index_of_refraction(const CheckedMaterial& material, const GltfConsumer*, c
   if (factor > 1.0 || factor < 0.0)
     add(Confidence::kCertain,
         "KHR_materials_specular: specularFactor " + number_text(factor) + " is outside 0 to 1",
-        "set specularFactor to 1 and state the reflectance by ior in KHR_materials_ior");
+        "set specularFactor to 1, and set the reflectance by ior in KHR_materials_ior");
   if (factor > 0.0 && factor <= 0.5 && !stated.has_specular_map && stated.ior.value_or(1.5) == 1.5)
     add(Confidence::kPossible,
         "KHR_materials_specular: specularFactor " + number_text(factor) + " gives F0 " +
             number_text(rounded(0.04 * factor, 2)) +
-            ", less than water; it may be the level of a node whose 0.5 means F0 0.04",
-        "set specularFactor to " + number_text(std::min(1.0, 2.0 * factor)) +
-            ", if a level was written as a factor");
+            ", less than water; it may be the specular level of a shader node, where 0.5 means F0 0.04",
+        "set specularFactor to " + number_text(std::min(1.0, 2.0 * factor)) + " if it is such a level");
   if (factor == 0.0 && !stated.has_specular_map)
     add(Confidence::kLikely,
         "KHR_materials_specular: specularFactor 0 switches off all reflection of the dielectric",
@@ -166,8 +165,8 @@ void ignored_by_reader(const CheckedMaterial& material, const GltfConsumer* read
 void unreadable_statement(const CheckedMaterial& material, const GltfConsumer*, const Rule& rule,
                           std::vector<MaterialFinding>& findings) {
   for (const std::string& failure : material.failures)
-    findings.push_back({rule.name, Confidence::kCertain, material.name, "", failure,
-                        "write what is expected into this line"});
+    findings.push_back(
+        {rule.name, Confidence::kCertain, material.name, "", failure, "correct this line of the file"});
 }
 
 // Ns of MTL files is from 0 to 1000 (Wavefront, Advanced Visualizer manual, appendix B).
@@ -184,7 +183,7 @@ void exponent_range(const CheckedMaterial& material, const GltfConsumer*, const 
   if (below_zero > 0)
     findings.push_back({rule.name, Confidence::kLikely, material.path.string(), "",
                         std::to_string(below_zero) + (below_zero == 1 ? " exponent is" : " exponents are") +
-                            " below 0, which convert reads as no highlight",
+                            " below 0, which texremap convert treats as no highlight",
                         "write the exponent of the highlight as Ns, or 0 for none"});
   if (above_zero == 0) return;
   const std::string context = material.path.string(), all = std::to_string(above_zero) +

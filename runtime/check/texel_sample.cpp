@@ -13,11 +13,11 @@
 namespace remap {
 namespace {
 
-// An image of up to this many texels a side is read whole. From a larger image, squares of kRun texels a side
-// are read, as many as fit into that size.
+// An image of at most so many texels a side is read whole. From a larger image, squares with kRun texels a
+// side are read, as many as fit into kSide.
 constexpr int kSide = 1024, kRun = 64;
 
-// Returns the columns or rows that are kept out of `size`.
+// Returns which of `size` columns or rows are kept.
 std::vector<int> kept_of(int size) {
   std::vector<int> kept;
   if (size <= kSide) {

@@ -111,7 +111,7 @@ Command::Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
 
 Command* Command::add_subcommand(const std::string& name, const std::string& description,
                                  const std::string& group) {
-  // CLI::App owns its subcommands. This pointer therefore shares the ownership of the parent.
+  // CLI::App owns its subcommands. So this pointer shares the ownership of the parent.
   std::shared_ptr<CLI::App> subcommand(app_, app_->add_subcommand(name, description));
   if (!group.empty()) subcommand->group(group);
   commands_.push_back(std::unique_ptr<Command>(new Command(std::move(subcommand))));

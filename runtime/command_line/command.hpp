@@ -36,24 +36,24 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
-// An OptionTags is a set of bits that each program defines. They state what follows from the use of an
-// option.
+// An OptionTags is a set of bits that each program defines. A tag states what follows if an option is used.
 using OptionTags = unsigned;
 
-// A Reader reads the word of an option into a value. For other words `read` throws kUsage, with the option
-// (`--type`). `choices` are the accepted words, if they are few.
+// A Reader reads the word of an option into a value. If the word is not accepted, `read` throws kUsage with
+// the option (`--type`). `choices` are the accepted words, if there are only a few.
 template <typename Value>
 struct Reader {
   std::function<Value(const std::string& option, const std::string& word)> read;
   std::vector<std::string> choices;
 };
 
-// Throws kUsage, because `option` got `word`. The message offers the `known` names, each of which is a
-// `noun`.
+// Throws kUsage, because `option` was given the unknown word `word`. The message suggests `known` names, each
+// of which is a `noun`.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 
-// Returns a reader for one of the names in `table`. Messages use `noun` for them, such as `pixel type`.
+// Returns a reader for one of the names in `table`. Messages call such a name `noun`, for example `pixel
+// type`.
 template <typename Value, std::size_t Count>
 Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& noun) {
   return {[&table, noun](const std::string& option, const std::string& word) {
@@ -116,7 +116,7 @@ class Option {
   // Sets the default that help shows.
   Option* default_text(const std::string& text);
   Option* tag(OptionTags tags);
-  // Moves the option to the ones that `--help` shows first.
+  // Moves the option to those that `--help` shows first.
   Option* common();
   // Sets the environment variable that gives the value if the option is missing.
   Option* environment(const std::string& name);
@@ -145,8 +145,9 @@ class Command {
   // or list. `value` must live until the command has run.
   template <OptionValue T>
   Option* add_option(const std::string& names, T& value, const std::string& description = "");
-  // Adds an option whose words `reader` reads after the whole command line is known to be well-formed. Help
-  // lists the choices of the reader. A list of values takes a word each time the option is given.
+  // Adds an option whose words `reader` reads. It reads them after the whole command line was found to be
+  // well-formed. Help lists the choices of the reader. For a list of values, each use of the option has one
+  // word.
   template <typename Value, typename Read>
   Option* add_option(const std::string& names, Value& value, const Reader<Read>& reader,
                      const std::string& description) {
@@ -164,7 +165,7 @@ class Command {
     return added;
   }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
-  // Refuses an option of earlier versions, and prints what to do. Help does not show it.
+  // Refuses an option of earlier versions, and prints what to do instead. Help does not show it.
   void retire(const std::string& name, const std::string& remedy);
   // Refuses a command that only another package has, and prints where it is. Help does not show it.
   void retire_command(const std::string& name, const std::string& remedy);

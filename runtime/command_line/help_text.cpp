@@ -94,13 +94,14 @@ std::string default_text(const CLI::Option& option) {
   return replaced(without_quotes(without_quotes(option.get_default_str(), '[', ']'), '"', '"'), "\"", "");
 }
 
-// If `whole` is set, the text also lists the options that this option excludes. Messages use this text, too.
+// Returns the description of an option for help and for messages. If `whole` is set, it also lists the
+// options that this option excludes.
 std::string option_description(const CLI::Option& option, bool whole) {
   std::vector<std::string> remarks;
   if (const std::string allowed = allowed_values(option); !allowed.empty())
     remarks.push_back(type_and_checks(option).second.starts_with("{") ? "one of " + allowed : allowed);
   if (option.get_required()) remarks.push_back("required");
-  std::set<std::string> excluded;  // sorted, because CLI11 keeps them by address, which varies
+  std::set<std::string> excluded;  // sorted, because CLI11 sorts by address, which varies
   if (whole)
     for (const CLI::Option* other : option.get_excludes()) excluded.insert(other->get_name());
   for (const std::string& name : excluded) remarks.push_back("not with " + name);
@@ -117,7 +118,7 @@ Options positionals(const CLI::App& app) {
       [](const CLI::Option* option) { return option->get_positional() && !option->get_group().empty(); });
 }
 
-// Returns false for commands that are only refused, which have no group.
+// Returns false for commands that only print where they are now. They have no group.
 bool is_shown(const CLI::App* command) { return !command->get_group().empty(); }
 
 std::string usage(const CLI::App& app, const std::string& name) {

@@ -5,9 +5,9 @@
 
 namespace remap {
 
-// From now on the first of these signals sets the flag instead of ending the process, so that the run can
-// remove its unfinished files. The second SIGINT, SIGTERM or SIGHUP ends the process. Signals that the
-// program was started to ignore (nohup) are ignored. Further calls do nothing.
+// After this call, the first of these signals sets the flag and does not end the process. So the run can
+// remove its unfinished files. A second SIGINT, SIGTERM or SIGHUP ends the process. If the program was
+// started so that it ignores a signal (nohup), it still ignores it. Further calls do nothing.
 void watch_interruptions();
 
 // Returns true after such a signal.

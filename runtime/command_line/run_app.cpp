@@ -25,7 +25,7 @@ namespace {
 // Messages may be this long, because some list many names to choose from.
 constexpr std::size_t kLongestLine = 8000;
 
-// Returns the command that the arguments chose, at the deepest level that they reached.
+// Returns the command that the arguments chose, on the lowest level of subcommands.
 const CLI::App& chosen_command(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
@@ -98,7 +98,8 @@ std::string refused_value_text(const CLI::App& command, const std::string& what)
 // such as `unknown option --form (did you mean --from?)`.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  // Report a mistyped option first, because it is the likelier reason: with `--form a`, --from is missing.
+  // Report a mistyped option first, because it is the more likely cause. With `--form a`, --from is missing,
+  // too.
   if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
     return extra_text(command, extras);
   std::string what = error.what();
@@ -128,7 +129,8 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
   return what + see_help(command);
 }
 
-// Returns the words in reverse, as for CLI11. `PROGRAM help COMMAND` and `PROGRAM version` become options.
+// Returns the words in reverse order, which CLI11 expects. `PROGRAM help COMMAND` and `PROGRAM version`
+// become options.
 std::vector<std::string> words_of(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") {
@@ -159,7 +161,8 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   else
     run_reversed(app, words_of(argc, argv));
   std::cout.flush();
-  // This happens if `head` has read enough. Nothing follows that could change errno.
+  // This happens if the program that reads the output, such as `head`, has read enough. No call since then
+  // could have changed errno.
   if (!std::cout && errno == EPIPE) return 1;
   if (!std::cout) throw Error(ErrorKind::kOutput, "standard output: cannot be written");
   return 0;

@@ -1,4 +1,4 @@
-// This file gives the text of `--version`: the version, and facts about the build for error reports.
+// This file makes the text of `--version`, which has the version and facts about the build for error reports.
 #pragma once
 
 #include <string>

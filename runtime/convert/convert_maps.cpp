@@ -40,11 +40,12 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-// Rows holds a row for each channel of a segment's parameters. A row has its own memory or is in a map.
+// A SegmentRows holds one row for each channel of the parameters of a segment. A row has its own memory, or
+// it is part of a map.
 template <typename Float>
 class SegmentRows {
  public:
-  // Makes new rows of a parameter, and keeps existing ones.
+  // Makes the missing rows of a parameter.
   void make(Parameter parameter, std::size_t count) {
     std::vector<FloatRow>& own = own_[static_cast<std::size_t>(parameter)];
     if (own.size() < count) own.resize(count);
@@ -52,7 +53,7 @@ class SegmentRows {
     rows.count = count;
     for (std::size_t c = 0; c < count; ++c) rows.row[c] = own[c].data();
   }
-  // Uses a row of a map instead of a separate row.
+  // Uses a row of a map, so the channel needs no row of its own.
   void refer(Parameter parameter, std::size_t channel, Float* row) { rows_[parameter].row[channel] = row; }
 
   std::size_t count(Parameter parameter) const { return rows_[parameter].count; }
@@ -71,12 +72,13 @@ class SegmentRows {
 struct Scratch {
   SegmentRows<const float> source;
   SegmentRows<float> target;
-  std::array<std::uint8_t, kSegment> outside;  // source of the mask
-  FloatRow first, other;                       // copies of one value; the stored values
+  std::array<std::uint8_t, kSegment> outside;  // 1 for each texel out of the domain; becomes the mask
+  FloatRow first, other;                       // stored values of the first channel, and values of any row
   FloatRow coverage;
 };
 
-// Returns the values of a segment as an array of floats if the map stores them like this, otherwise null.
+// Returns the values of a segment as an array of floats, or null if the map does not store them as such an
+// array.
 template <typename Byte>
 auto float_row(const BasicChannelView<Byte>& view, const Segment& segment) {
   using Float = std::conditional_t<std::is_const_v<Byte>, const float, float>;
@@ -93,7 +95,8 @@ struct PlacedView {
   BasicChannelView<Byte> view;
 };
 
-// A Texels is a group of channels, three or four linear floats, that fill every texel. It is moved at once.
+// A Texels is a group of three or four channels of linear floats that fill every texel. All of them are moved
+// in one step.
 template <typename Byte>
 struct Texels {
   std::vector<PlacedView<Byte>> channels;
@@ -101,7 +104,8 @@ struct Texels {
   Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
 };
 
-// Returns the groups of channels that fill texels of floats together. Parameters of one map are separate.
+// Returns the groups of channels that fill whole texels of floats. Parameters that share a map are in
+// separate groups.
 template <typename Byte>
 std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& channels) {
   std::vector<Texels<Byte>> all;
@@ -168,12 +172,12 @@ class Conversion {
 
   const Converter& converter_;
   const MapConversion& maps_;
-  std::vector<Parameter> sources_;  // of the converter, plus the metal mask if there is one
+  std::vector<Parameter> sources_;  // sources of the converter, plus the metal mask if there is one
   std::vector<Texels<const std::byte>> source_texels_;
   std::vector<Texels<std::byte>> target_texels_;
 };
 
-// Returns true if a channel is moved together with others.
+// Returns true if the channel belongs to a group that is moved in one step.
 template <typename Byte>
 bool is_in(const std::vector<Texels<Byte>>& all, Parameter parameter, std::size_t channel) {
   return std::ranges::any_of(all, [&](const Texels<Byte>& texels) {
@@ -226,20 +230,21 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
   return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
 }
 
-// Returns false for measures that no map and no statistics ask for.
+// Returns false for a measure if no map and no statistics need it.
 bool Conversion::is_made(Parameter parameter) const {
   const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicUncertainty;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
-// Returns the largest valid value. Roughness, specular without a workflow, and inputs of surfaces, such as an
-// index of refraction, have no limit.
+// Returns the largest valid value of a parameter. Roughness, specular without a workflow, and inputs of
+// surfaces such as an index of refraction have no limit.
 float Conversion::highest(Parameter parameter) const {
   const bool is_fraction = !converter_.converts_brdf_only() && parameter != Parameter::kRoughness;
   return is_fraction && !is_input(parameter) ? 1.0f : kLargest;
 }
 
-// Returns the row of a map if it holds the values unchanged. Returns null if they must be loaded.
+// Returns the row of the map if it holds the values as they are needed. Returns null if they must be loaded
+// into another row.
 const float* Conversion::row_of_map(const SourceParameter& parameter, std::size_t channel,
                                     const Segment& segment) const {
   const bool is_plain = !parameter.channels.empty() && parameter.transfer == Transfer::kLinear &&
@@ -289,8 +294,8 @@ void Conversion::load_texels(const Segment& segment, Scratch& scratch) const {
   }
 }
 
-// Writes directly into rows of a map. The map must store floats unchanged, and the row must not be a source
-// row that is still needed.
+// Lets results go directly into rows of a map. The map must store floats unchanged. The row must not be the
+// row of a source that is needed later.
 void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
   for (const auto& [parameter, target] : maps_.targets) {
     const bool changes =
@@ -306,7 +311,7 @@ void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) cons
   }
 }
 
-// Returns true if `row` shares memory with another source row. The same channel's row does not count.
+// Returns true if `row` shares memory with the row of a source other than this channel of `target`.
 bool Conversion::is_source_of_another(Parameter target, std::size_t channel, const float* row,
                                       std::size_t count, const Scratch& scratch) const {
   const std::less<const float*> before;
@@ -401,7 +406,7 @@ void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, 
   throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
 }
 
-// Counts invalid texels, and throws for the first one with BadTexels::kFail.
+// Counts invalid texels. With BadTexels::kFail, throws for the first invalid texel.
 void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
                                       MapStatistics& statistics) const {
   struct CheckedRow {
@@ -412,14 +417,14 @@ void Conversion::count_invalid_texels(const Segment& segment, Scratch& scratch,
   for (const Parameter parameter : sources_)
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
       rows.push_back({scratch.source.row(parameter, c), highest(parameter)});
-  constexpr std::size_t kRun = 128;  // within one row: memory delivers several rows at once faster
+  constexpr std::size_t kRun = 128;  // short, because memory delivers several rows at once faster than one
   int odd = 0;                       // as wide as a float, so that compilers vectorise the loop
   for (std::size_t begin = 0; begin < segment.count; begin += kRun) {
     const std::size_t end = std::min(segment.count, begin + kRun);
     for (const CheckedRow& row : rows)
       for (std::size_t i = begin; i < end; ++i) odd |= !is_ordinary(row.values[i], row.highest);
   }
-  if (odd == 0) return;  // the usual case, found as fast as memory can be read
+  if (odd == 0) return;  // the usual case, as fast as memory can be read
   for (std::size_t i = 0; i < segment.count; ++i) {
     bool nan = false, infinite = false, negative = false, above = false;
     for (const CheckedRow& row : rows) {
@@ -490,7 +495,7 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
       const float* const row = scratch.target.row(parameter, std::min(c, made - 1));
       const bool is_there = row == float_row(target->channels[c], segment);
       const std::size_t own = is_there ? 0 : store_parameter(*target, c, segment, row, scratch.other);
-      clipped = is_color(parameter) ? clipped + own : own;  // equal channels count once
+      clipped = is_color(parameter) ? clipped + own : own;  // equal channels of a parameter count once
     }
     statistics.clipped_count += clipped;
   }

@@ -5,8 +5,8 @@
 namespace remap {
 namespace {
 
-// Works on four values at once. For steps of three floats, compilers make no vectors on WebAssembly, and slow
-// vectors elsewhere.
+// Works on four values at once. Without this type, compilers do not vectorise steps of three floats on
+// WebAssembly, and make slow vectors elsewhere.
 using Four = float __attribute__((vector_size(16)));
 
 Four four_at(const void* values) noexcept {
@@ -16,7 +16,8 @@ Four four_at(const void* values) noexcept {
 }
 void put(const Four& four, void* values) noexcept { std::memcpy(values, &four, sizeof four); }
 
-// Takes four texels at a time, and the last texels float by float. Both directions use it.
+// Calls `fours` for each group of four texels, and `one` for each float of the last texels. Loading and
+// storing both use this function.
 template <typename Fours, typename One>
 void for_texels(std::size_t count, std::size_t channels, Fours fours, One one) noexcept {
   std::size_t i = 0;

@@ -1,5 +1,6 @@
-// This file converts the 256 levels of an 8-bit map by tables: the value of each level, and the closest level
-// of every float. It works for any rising curve with levels further apart than 128th parts of a power of two.
+// This file converts the 256 levels of an 8-bit map by tables. One table has the value of each level, the
+// other the closest level of every float. This works for any rising curve whose levels between 2^e and
+// 2^(e+1) are further apart than 2^e / 128.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,8 @@ class QuantizationTable {
   using Values = std::array<float, kCount>;
 
   // `values` are the values of the levels. Element i of `least` is the least float that is closer to level i
-  // + 1 than to level i; the last element is beyond 1. Throws if a step has three levels, so that such a
-  // constant does not compile.
+  // + 1 than to level i. The last element is beyond 1. Throws if one step has floats of three levels. A
+  // constant then does not compile.
   constexpr QuantizationTable(const Values& values, const Values& least) : values_(values) {
     std::uint64_t level = 0;
     for (std::uint32_t i = 0; i < kSteps; ++i) {
@@ -34,7 +35,7 @@ class QuantizationTable {
       values[i] = values_[std::to_integer<std::size_t>(first[i * stride])];
   }
 
-  // Clips values to [0, 1], NaN to 0. Returns the number of values that were clipped.
+  // Clips values to [0, 1] and turns NaN into 0. Returns the number of values that it changed.
   std::size_t store(const float* values, std::size_t count, std::byte* first,
                     std::size_t stride) const noexcept {
     std::array<std::uint32_t, 512> block;
@@ -56,8 +57,8 @@ class QuantizationTable {
   }
 
  private:
-  // Steps cover floats from 2^-13 to 1, by the upper half of their bits. 2^-13 is below the middle of levels
-  // 0 and 1. No step has floats of more than two levels.
+  // A step is all floats with the same upper 16 bits. The steps cover floats from 2^-13 to 1. 2^-13 is below
+  // the middle of levels 0 and 1. No step has floats of more than two levels.
   static constexpr float kLeast = 0x1p-13f;
   static constexpr int kStepBits = 16;
   static constexpr std::uint32_t kFirstStep = __builtin_bit_cast(std::uint32_t, kLeast) >> kStepBits;
@@ -65,8 +66,8 @@ class QuantizationTable {
       (__builtin_bit_cast(std::uint32_t, 1.0f) >> kStepBits) - kFirstStep + 1;
 
   Values values_;
-  // An entry has two parts. The upper 32 bits are the level of the step's least float. The lower bits
-  // overflow into them when the bits of a float of the next level are added.
+  // An entry is added to the bits of a float. The upper 32 bits then are its level. The entry has the lower
+  // of the step's two levels there, and its lower bits overflow if the float belongs to the next level.
   std::array<std::uint64_t, kSteps> steps_{};
 };
 

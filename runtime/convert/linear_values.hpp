@@ -1,4 +1,5 @@
-// This file converts stored values to linear values, and back: pixel type and transfer curve in one step.
+// This file converts stored values to linear values and linear values to stored values. It treats pixel type
+// and transfer curve in one step.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,8 @@ namespace remap {
 void load_linear(Transfer transfer, PixelType type, const std::byte* first, std::size_t stride,
                  std::size_t count, float* values) noexcept;
 
-// Gives the results of from_linear() followed by store_values(), except that sRGB in uint8 is rounded once.
-// Every float becomes the closest level of the curve. Returns the number of clipped values.
+// Gives the results of from_linear() followed by store_values(). Only sRGB in uint8 differs, because it is
+// rounded once: every float becomes the closest level of the curve. Returns the number of clipped values.
 std::size_t store_linear(Transfer transfer, PixelType type, const float* values, std::size_t count,
                          std::byte* first, std::size_t stride) noexcept;
 

@@ -9,7 +9,7 @@
 namespace remap {
 namespace {
 
-// HalfBits stores a half float. The templates below must distinguish it from uint16_t.
+// A HalfBits holds the bits of a half float, so that the templates below can distinguish it from uint16_t.
 struct HalfBits {
   std::uint16_t bits;
 };
@@ -19,7 +19,7 @@ constexpr float to_float(Stored stored) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return half_to_float(stored.bits);
   } else if constexpr (std::is_integral_v<Stored>) {
-    // Larger integers are divided in double, because a float holds only 24 bits.
+    // Divides larger integers as double, because a float has only 24 bits.
     using Real = std::conditional_t<(sizeof(Stored) > 2), double, float>;
     return static_cast<float>(static_cast<Real>(stored) /
                               static_cast<Real>(std::numeric_limits<Stored>::max()));
@@ -46,7 +46,8 @@ Stored from_float(float value) noexcept {
   }
 }
 
-// Calls `work` with the stride. For packed values it is a constant, so that compilers vectorise the loops.
+// Calls `work` with the stride. If values have no gaps, the stride is a constant, so that compilers vectorise
+// the loops.
 template <std::size_t kSize, typename Work>
 void with_stride(std::size_t stride, Work work) noexcept {
   if (stride == kSize) return work(std::integral_constant<std::size_t, kSize>{});
@@ -79,7 +80,7 @@ std::size_t store(const float* values, std::size_t count, std::byte* first, std:
   return clipped;
 }
 
-// Calls `work` with a value of the type that stores `type`.
+// Calls `work` with a value of the C++ type for `type`.
 template <typename Work>
 auto with_storage(PixelType type, Work work) noexcept {
   switch (type) {
@@ -150,7 +151,7 @@ float half_to_float(std::uint16_t half) noexcept {
   const std::uint32_t magnitude = static_cast<std::uint32_t>(half & 0x7fff) << 13;
   const std::uint32_t exponent = magnitude & kHalfExponent;
   const std::uint32_t normal = magnitude + kExponentShift;
-  const std::uint32_t infinite = normal + kExponentShift;  // the largest exponent stays the largest
+  const std::uint32_t infinite = normal + kExponentShift;  // infinity and NaN keep the largest exponent
   const float smallest_normal = __builtin_bit_cast(float, std::uint32_t{113} << 23);  // 2^-14
   const float denormal = __builtin_bit_cast(float, normal + (std::uint32_t{1} << 23)) - smallest_normal;
   std::uint32_t bits = normal;
@@ -166,7 +167,8 @@ std::uint16_t float_to_half(float value) noexcept {
   constexpr std::uint32_t kInfinity = std::uint32_t{255} << 23;
   constexpr std::uint32_t kHalfOverflow = std::uint32_t{127 + 16} << 23;        // 65536
   constexpr std::uint32_t kHalfSmallestNormal = std::uint32_t{127 - 14} << 23;  // 2^-14
-  // This is 0.5. A unit in its last place is the step of half denormals, 2^-24, so additions round to it.
+  // This is 0.5. The last bit of floats near 0.5 means 2^-24, the step of half denormals. So adding this
+  // number rounds to a half denormal.
   constexpr std::uint32_t kDenormalMagic = std::uint32_t{(127 - 15) + (23 - 10) + 1} << 23;
   const float lined_up = __builtin_bit_cast(float, magnitude) + __builtin_bit_cast(float, kDenormalMagic);
   const std::uint32_t denormal = __builtin_bit_cast(std::uint32_t, lined_up) - kDenormalMagic;

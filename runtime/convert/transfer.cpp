@@ -11,9 +11,10 @@
 namespace remap {
 namespace {
 
-// Computes the sRGB curve without the powers of the C library. They take most of the time of a conversion and
-// differ between libraries. The code uses only sums, products, quotients and comparisons of doubles, so that
-// results are the same everywhere. It has no branch and no call, so that compilers vectorise the loops below.
+// Computes the sRGB curve without the power function of the C library. That function takes most of the time
+// of a conversion, and its results differ between libraries. This code has only sums, products, quotients and
+// comparisons of doubles, so results are the same everywhere. It has no branch and no call, so that compilers
+// vectorise the loops below.
 
 constexpr std::uint64_t kOne = 0x3ff0000000000000;  // bits of 1.0
 constexpr int kMantissaBits = 52;
@@ -26,8 +27,9 @@ constexpr double polynomial(const std::array<double, Count>& c, double x) noexce
   return sum;
 }
 
-// Is within 3e-14 for normal values above 0. It adds the exponent and a polynomial in ((m - 1) / (m + 1))^2.
-// The mantissa m lies between the square roots of 1/2 and 2. The nodes of the interpolation are Chebyshev's.
+// Returns the logarithm for normal values above 0, within 3e-14. It adds the exponent and a polynomial in ((m
+// - 1) / (m + 1))^2. The mantissa m lies between the square roots of 1/2 and 2. The polynomial interpolates
+// at Chebyshev nodes.
 constexpr double log2_of(double value) noexcept {
   constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t kBitsOf2To52 = 0x4330000000000000;
@@ -41,10 +43,10 @@ constexpr double log2_of(double value) noexcept {
   return exponent + t * polynomial(kFactors, t * t);
 }
 
-// Returns 2^x within 2e-14 of its value, for x between -1000 and 1000. It multiplies the power of the closest
-// integer by a polynomial for the rest, interpolated at Chebyshev's nodes.
+// Returns 2^x for x between -1000 and 1000, with a relative error below 2e-14. It multiplies the power of the
+// closest integer by a polynomial for the rest, which interpolates at Chebyshev nodes.
 constexpr double exp2_of(double x) noexcept {
-  constexpr double kWhole = 0x1.8p52;  // a sum with it is rounded to an integer, which is in the last bits
+  constexpr double kWhole = 0x1.8p52;  // x + kWhole is rounded to an integer, which is in the last bits
   constexpr std::array kFactors = {1.0000000000000135,    0.6931471805599462,     0.2402265069564034,
                                    0.05550410866465167,   0.009618129193934313,   0.0013333558200794592,
                                    0.0001540343375125101, 1.5252672924850737e-05, 1.325964524488711e-06,
@@ -55,7 +57,7 @@ constexpr double exp2_of(double x) noexcept {
   return power * polynomial(kFactors, x - (shifted - kWhole));
 }
 
-// Accepts finite values of at least 0. It multiplies by reciprocals, because this is faster than dividing.
+// Converts a finite value of at least 0. Multiplies by reciprocals, because this is faster than dividing.
 constexpr double magnitude_to_linear(double stored) noexcept {
   const double power = exp2_of(2.4 * log2_of((stored + 0.055) * (1.0 / 1.055)));
   const double line = stored * (1.0 / 12.92);
@@ -68,7 +70,8 @@ constexpr double magnitude_to_srgb(double linear) noexcept {
   return linear <= 0.0031308 ? line : power;
 }
 
-// Extends `change`, for finite magnitudes, to an odd function. Infinity and NaN stay unchanged.
+// Applies `change`, which is for finite values of at least 0, to all values: negative values keep their sign,
+// and infinity and NaN stay unchanged.
 template <typename Change>
 void change_all(std::span<float> values, Change change) noexcept {
   for (float& value : values) {

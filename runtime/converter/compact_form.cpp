@@ -12,7 +12,7 @@ std::size_t terms_of(const FactorTerms& factor) {
   return count;
 }
 
-// The exponent 2 / alpha^2 - 2 is two millions at this alpha. A mirror has no finite exponent.
+// At this alpha, the exponent 2 / alpha^2 - 2 is two million. A mirror would have an infinite exponent.
 constexpr float kSharpestExponent = 1e-3f;
 
 }  // namespace

@@ -23,20 +23,20 @@ namespace remap {
 // These are the most powers of t and of alpha, including power 0.
 inline constexpr std::size_t kMostPowersOfT = 16, kMostPowersOfAlpha = 32;
 
-// The order is [power of t][power of alpha]. There is at least one row, and no row is empty.
+// The indices are [power of t][power of alpha]. There is at least one row, and no row is empty.
 using FactorTerms = std::vector<std::vector<float>>;
 
 struct Hinge {
-  float turn = 0.0f, turn_by_alpha = 0.0f;  // turn alpha if specular is cut off
-  float bend = 0.0f;                        // at least 0; reduces the turn if more is cut off
-  float spread = 0.0f;                      // spreads specular if alpha is cut off
+  float turn = 0.0f, turn_by_alpha = 0.0f;  // turn alpha if the limit of specular is exceeded
+  float bend = 0.0f;    // at least 0; reduces the turn where the limit is exceeded by much
+  float spread = 0.0f;  // spreads specular if the limit of alpha is exceeded
   bool operator==(const Hinge&) const = default;
 };
 
 struct CompactForm {
   float pole = 1.0f;  // above 0
   FactorTerms alpha = {{1.0f}}, specular = {{1.0f}};
-  std::optional<float> alpha_limit, specular_limit;  // limits of the target, above 0; none if unlimited
+  std::optional<float> alpha_limit, specular_limit;  // limits of the target, above 0; unset if it has none
   Hinge hinge;                                       // 0 without limits
   bool operator==(const CompactForm&) const = default;
 };
@@ -44,8 +44,8 @@ struct CompactForm {
 // Returns true if alpha and specular stay unchanged, because both models have one lobe.
 bool is_copy(const CompactForm& form);
 
-// Returns the count of the numbers in P, Q, the pole and the hinge. Returns 0 for a copy. Limits do not
-// count, because they belong to the target model.
+// Returns how many numbers P, Q, the pole and the hinge have. Returns 0 for a copy. Limits do not count,
+// because they belong to the target model.
 std::size_t number_count(const CompactForm& form);
 
 // Returns the value of a factor. `Scalar` is double, or a type that adds and multiplies with doubles.
@@ -60,14 +60,14 @@ Scalar factor_value(const FactorTerms& terms, const Scalar& alpha, const Scalar&
   return sum;
 }
 
-// A FormEnds holds the ends between which a form is evaluated, as floats.
+// A FormEnds holds the range in which a form is evaluated, as floats.
 struct FormEnds {
-  float width_min = 0.0f, width_max = 0.0f;  // the domain, in the source's own width parameter
-  float width_from = 0.0f, width_to = 0.0f;  // ends for clamping; one side reaches perfectly sharp
-  float alpha_min = 0.0f;                    // alpha of the sharpest source in the domain
-  float least_alpha = 0.0f;                  // least alpha of the target: exponents end somewhere
+  float width_min = 0.0f, width_max = 0.0f;  // the domain, in the width parameter of the source
+  float width_from = 0.0f, width_to = 0.0f;  // range for clamping; the end towards a mirror is not limited
+  float alpha_min = 0.0f;                    // alpha of the sharpest source texel in the domain
+  float least_alpha = 0.0f;                  // smallest alpha of the target, because exponents are finite
 };
-// Returns the ends for the domain `width`.
+// Returns the range in which a form is evaluated for the domain `width`.
 FormEnds ends_of(RoughnessEncoding source, RoughnessEncoding target, const Range& width);
 
 }  // namespace remap

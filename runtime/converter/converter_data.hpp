@@ -1,5 +1,5 @@
-// This file holds converters of width and specular as data. A fit file has one in a section, which texremap
-// runs and remapc emits. Another kind of file holds many converters.
+// This file holds converters of width and specular as data. A fit file has one converter, which texremap runs
+// and remapc emits. Another kind of file has many converters.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// A GoldenTexel is a texel, the fit's result for it in double precision, and the permitted error of a
-// converter. Width and specular are the models' own parameters.
+// A GoldenTexel is a texel, the result of the fit in double precision, and the error that a converter may
+// have. Width and specular are the models' own parameters.
 struct GoldenTexel {
   float width = 0.0f, specular = 0.0f;
   float width_out = 0.0f, specular_out = 0.0f;
@@ -21,20 +21,20 @@ struct GoldenTexel {
 };
 
 struct ConverterData {
-  // The figures of the fit have two digits, rounded up. SSIM has three digits, and picture differences have
+  // The errors of the fit have two digits, rounded up. SSIM has three digits, and picture differences have
   // one decimal. Ranges are rounded to float.
   ConverterInfo info;
   CompactForm form;
-  // These bounds limit the distance from the fit over the domain, in target alpha and target specular. They
-  // are 0 if the form is the fit itself.
+  // Over the domain, target alpha and target specular differ from the fit by at most these bounds. They are 0
+  // if the form is the fit itself.
   double alpha_bound = 0.0, specular_bound = 0.0;
-  std::vector<GoldenTexel> golden;  // texels inside, on the edge of and beyond the domain
+  std::vector<GoldenTexel> golden;  // texels inside of the domain, on its edge and beyond
   bool operator==(const ConverterData&) const = default;
 };
 
 // Returns a file of converters in order. Equal converters give equal bytes, and floats read back exactly.
 std::string converters_to_json(const std::vector<ConverterData>& converters);
-// Reads such a file. Throws kInput, beginning with `context`, for any other text.
+// Reads the text of converters_to_json(). Throws kInput, beginning with `context`, for any other text.
 std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& context);
 
 }  // namespace remap

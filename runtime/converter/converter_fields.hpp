@@ -12,7 +12,7 @@ namespace remap {
 // This program reads and writes this version of fit files.
 inline constexpr int kFitFormatVersion = 4;
 
-// Throws kInput unless `root` begins a fit file of this version.
+// Throws kInput if `root` is not the root of a fit file of this version.
 void require_fit_file(const Field& root);
 // Returns true if the file holds a fit of whole materials. Its ends are workflows.
 bool is_of_materials(const Field& root);
@@ -34,16 +34,16 @@ std::string read_model(const Field& field);
 // Reads the version from a text such as `remapc 1.2.3`.
 std::string read_tool_version(const Field& field);
 
-// Returns the number itself. Throws kNumeric if it is not finite.
+// Returns `value`. Throws kNumeric if it is not finite.
 double finite(double value);
 
 // Returns the section `converter` of a fit file. Throws kNumeric if a number is not finite.
 std::string converter_to_json(const ConverterData& converter);
 ConverterData read_converter(const Field& field);
-// Reads the converter of the fit file with this root. Returns nothing if the fit could not be lowered. Throws
-// kInput, also if the file has no such section.
+// Reads the converter of the fit file with this root. Returns nothing if the fit has no converter because it
+// could not be lowered. Throws kInput if the file has no section `converter`.
 std::optional<ConverterData> read_fitted_converter(const Field& root);
-// This advice belongs to messages about files without a converter.
+// Messages about files without a converter end with this advice.
 inline constexpr const char* kMakeAgain = "run remapc fit again, or chain, invert or build";
 
 }  // namespace remap

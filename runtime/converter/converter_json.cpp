@@ -1,5 +1,5 @@
-// This file writes and reads converters.json. Each number has exactly one text and each field its own line,
-// so that a review shows only real changes.
+// This file writes and reads converters.json. A number is always written with the same text, and each field
+// has its own line, so that a review shows only real changes.
 #include <algorithm>
 #include <cmath>
 

@@ -28,8 +28,8 @@ constexpr std::array<std::string_view, 92> kKeywords = {
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq"};
 
-// These names are taken: namespaces of the standard ([namespace.future]: std and std1, posix), the namespace
-// of every header, and macros of systems and of included headers.
+// These names are in use already. They are namespaces of the standard ([namespace.future]: std and std1,
+// posix), the namespace of every header, and macros of systems and of included headers.
 constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linux",    "unix", "i386",
                                                          "NULL",  "NAN",   "INFINITY", "EOF"};
 

@@ -9,10 +9,10 @@ namespace {
 
 namespace models = materials;
 
-// A SameInput is an input whose meaning has another name in most models.
+// A SameInput is an input that has another name in most models.
 struct SameInput {
   std::string_view name, common;
-  std::size_t channels = 0;  // if set, only of inputs with this many
+  std::size_t channels = 0;  // if set, only inputs with so many channels
 };
 constexpr std::array<SameInput, 38> kSame = {{{"specular_roughness", "roughness"},
                                               {"base_metalness", "metallic"},
@@ -53,7 +53,7 @@ constexpr std::array<SameInput, 38> kSame = {{{"specular_roughness", "roughness"
                                               {"opacity", "opacity_color", 3},
                                               {"alpha", "opacity"}}};
 
-// Switches have no maps. Occlusion is not a part of the surface, and stays a map beside it.
+// Switches have no maps. Occlusion does not belong to the surface, and stays a separate map.
 constexpr std::array<std::string_view, 9> kWithoutMap = {
     "useSpecularWorkflow", "specularColor", "opacityMode", "alpha_mode",          "occlusion",
     "thin_walled",         "alpha_cutoff",  "thickness",   "geometry_thin_walled"};
@@ -65,7 +65,7 @@ std::string_view common_name(std::string_view name, std::size_t channels) {
   return found == kSame.end() ? name : found->common;
 }
 
-// These are the parameters of workflows that surfaces have as well.
+// Workflows and surfaces both have these parameters.
 constexpr std::array<NamedValue<Parameter>, 3> kShared = {{{Parameter::kRoughness, "roughness"},
                                                            {Parameter::kBaseColor, "base_color"},
                                                            {Parameter::kMetallic, "metallic"}}};
@@ -99,7 +99,7 @@ void add_surface(Surface surface, Tables& tables) {
   });
 }
 
-// A LobeWeight is an input that hides other inputs of its lobe where it is 0.
+// A LobeWeight is an input that hides the other inputs of its lobe if it is 0.
 struct LobeWeight {
   std::string_view prefix, weight;
 };

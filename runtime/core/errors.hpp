@@ -1,4 +1,4 @@
-// This file makes the errors of each kind. Throw them: `throw input_error("place: what is wrong (fix)")`.
+// This file makes errors of each kind. They are thrown as `throw input_error("place: what is wrong (fix)")`.
 #pragma once
 
 #include <cerrno>
@@ -13,8 +13,8 @@ inline Error usage_error(const std::string& message) { return {ErrorKind::kUsage
 inline Error input_error(const std::string& message) { return {ErrorKind::kInput, message}; }
 inline Error output_error(const std::string& message) { return {ErrorKind::kOutput, message}; }
 inline Error numeric_error(const std::string& message) { return {ErrorKind::kNumeric, message}; }
-// Returns the error of a system call that failed with errno `code`. The message is `message` and the system's
-// text.
+// Returns the error of a system call that failed with errno `code`. Its text is `message`, followed by the
+// text of the system.
 inline Error system_error(ErrorKind kind, const std::string& message, int code) {
   return {kind, message + ": " + std::strerror(code), code};
 }

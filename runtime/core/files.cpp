@@ -89,7 +89,7 @@ void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) 
   try {
     if (flush == Flush::kYes) flush_to_disk(unfinished, path);
     replace(unfinished, path);
-    if (flush == Flush::kYes) wait_for_disk(folder_of(path));  // an error is ignored, because the file exists
+    if (flush == Flush::kYes) wait_for_disk(folder_of(path));  // ignores an error, because the file exists
   } catch (const Error&) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
@@ -156,7 +156,7 @@ void NewFile::commit(Flush flush) {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail_to_write(path_, errno);
   replace(unfinished_, path_);
   unfinished_.clear();
-  if (flush == Flush::kYes) wait_for_disk(folder_of(path_));  // an error is ignored, because the file exists
+  if (flush == Flush::kYes) wait_for_disk(folder_of(path_));  // ignores an error, because the file exists
 }
 
 void write_file(const fs::path& path, std::string_view content, Flush flush) {

@@ -14,32 +14,32 @@
 
 namespace remap {
 
-// Returns a new hidden name in the folder of `path` for an unfinished file:
-// `.STEM.unfinished-MARK-LETTERS.EXTENSION`. MARK is the mark of this process (owner_tag.hpp). Image writers
-// choose the format by the extension. The function shortens the stem if the name would exceed 255 bytes. The
-// first call for a folder removes the unfinished files of processes of this machine that have ended, because
-// killed processes could not.
+// Returns a new hidden name for an unfinished file in the folder of `path`:
+// `.STEM.unfinished-MARK-LETTERS.EXTENSION`. MARK is the mark of this process (owner_tag.hpp). The extension
+// stays, because it tells image writers the format. The stem is shortened if the name would exceed 255 bytes.
+// The first call for a folder also removes files of processes of this machine that have ended. A process that
+// is killed cannot remove its own files.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
 
 // Removes the unfinished files of ended processes from a folder, even if an earlier call has done so.
 void remove_unfinished(const std::filesystem::path& folder);
 
-// Replaces the name `unfinished` by `path` in the message of a library.
+// Replaces the name `unfinished` by `path` in a message of a library.
 std::string with_final_name(std::string message, const std::filesystem::path& unfinished,
                             const std::filesystem::path& path);
 
-// Decides whether the program waits until a result is on the disk. After a power cut the file is then either
-// the old or the new one. Use kNo only for files that can be checked and made again.
+// Decides whether the program waits until a result is on the disk. After a power cut, the file then is either
+// the old or the new file. Use kNo only for files that can be checked and made again.
 enum class Flush { kYes, kNo };
 
-// Gives the finished file its final name. On failure it removes `unfinished` and throws kOutput. It fails if
+// Gives the finished file its final name. On failure, removes `unfinished` and throws kOutput. Fails if
 // `path` exists and is not a regular file (a device, a pipe).
 void commit_file(const std::filesystem::path& unfinished, const std::filesystem::path& path,
                  Flush flush = Flush::kYes);
 
-// A NewFile is written piece by piece under an unfinished name, and removed unless it is committed. It
-// creates missing parent folders. It throws kOutput, and then leaves an existing file unchanged. It opens the
-// file once: reading and flushing use the same descriptor.
+// A NewFile is written piece by piece under an unfinished name. Its destructor removes it if it was not
+// committed. It creates missing parent folders. If it throws kOutput, an existing file stays unchanged. It
+// opens the file only once, and uses the same descriptor for reading and flushing.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& path);
@@ -67,8 +67,8 @@ class NewFile {
 // Writes `content` as a new file.
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::kYes);
 
-// Waits until the disk has the content of a finished file, or the names in a folder. Call it before and after
-// renames that do not flush. Throws kOutput with the path `shown` if the system refuses.
+// Waits until the disk has the content of a finished file, or the names in a folder. Call this before and
+// after renames that do not flush. If the system refuses, throws kOutput with the path `shown`.
 void flush_to_disk(const std::filesystem::path& path, const std::filesystem::path& shown);
 
 // Adds the bytes of a file. Its permissions are not copied, since a stranger may have set them.
@@ -78,9 +78,8 @@ void add_copy(const InputFile& from, NewFile& to);
 // not a readable file, and kOutput if the copy cannot be written.
 void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-// An OwnedFile is a file that the program keeps for itself, such as a journal, in a folder that others may
-// write into. Throws kOutput if others have planted something under the name; see open_own_file()
-// (system.hpp).
+// An OwnedFile is a file that the program keeps for itself, such as a journal. Others may write into its
+// folder. Throws kOutput if somebody has put another file there; see open_own_file() (system.hpp).
 class OwnedFile {
  public:
   // Opens the file. With kRead the file may be missing; exists() then returns false.

@@ -13,8 +13,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A Confinement is a folder to which inputs are confined. It has the path of the folder as it begins the
-// names of files, and the path after links are resolved.
+// A Confinement is a folder to which inputs are confined. It has two forms of its path: as file names begin
+// with it, and with links resolved.
 struct Confinement {
   fs::path name, place;
 };
@@ -26,7 +26,7 @@ std::shared_ptr<const std::vector<Confinement>> confinements;  // null if there 
   throw system_error(ErrorKind::kInput, path.string() + ": cannot be read", errno);
 }
 
-// Returns the words for a file that is not a regular file.
+// Returns a description of a file that is not a regular file.
 std::string kind_text(fs::file_type type) {
   if (type == fs::file_type::directory) return "is a folder, not a file";
   if (type == fs::file_type::fifo) return "is a named pipe, not a file (write its content to a file)";
@@ -64,7 +64,8 @@ void require_confined(const fs::path& path, int descriptor) {
   }
 }
 
-// Checks before it opens, because opening a pipe waits for its writer, and opening a device may have effects.
+// Checks the file before it opens it. To open a pipe would wait for its writer, and to open a device may have
+// effects.
 int opened(const fs::path& path) {
   require_regular_file(path);
   return open_to_read(path);
@@ -102,7 +103,7 @@ InputFile::InputFile(const fs::path& path, int descriptor) : path_(path), own_(-
 void InputFile::look() {
   const std::optional<FileFacts> found = descriptor_ < 0 ? std::nullopt : facts_of(descriptor_);
   if (!found) fail_to_read(path_);
-  // Check again, because the name may lead to another file by now.
+  // Check again, because the name may mean another file by now.
   if (found->type != fs::file_type::regular) throw input_error(path_.string() + ": is not a file");
   size_ = found->size;
 }

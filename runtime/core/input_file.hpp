@@ -1,4 +1,4 @@
-// This file opens a file once for everything that is read from it.
+// This file opens a file once, for everything that is read from it.
 #pragma once
 
 #include <cstddef>

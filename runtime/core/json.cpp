@@ -95,7 +95,7 @@ namespace {
 
 Library library_value(const Json& json);
 
-// Returns the bytes of a text or of a list's texts if one of them is not UTF-8. Otherwise returns null.
+// If a text, or one text in a list, is not UTF-8, returns the bytes. Otherwise, returns null.
 Json lost_bytes(const Json& value) {
   if (const std::string* text = value.text()) return is_utf8(*text) ? Json() : Json(base64(*text));
   const Json::List* entries = value.entries();

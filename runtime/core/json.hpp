@@ -18,7 +18,7 @@
 namespace remap {
 
 // A Json is a JSON value. A list in braces becomes an object if every entry is a pair that begins with a
-// text: `{{"id", id}, {"rows", 3}}`. Use Json::list() to make a list of such pairs.
+// text: `{{"id", id}, {"rows", 3}}`. Json::list() makes a list of such pairs.
 class Json {
  public:
   using List = std::vector<Json>;
@@ -68,13 +68,13 @@ class Json {
   // Adds the fields of another object. A field that exists already gets the new value.
   void update(const Json& other);
 
-  // These functions return null if the value has another kind.
+  // These functions return null if the value has another type.
   const bool* boolean() const { return std::get_if<bool>(&value_); }
   const std::string* text() const { return std::get_if<std::string>(&value_); }
   const List* entries() const { return std::get_if<List>(&value_); }
   const Object* fields() const { return std::get_if<Object>(&value_); }
   List* entries() { return std::get_if<List>(&value_); }
-  // Return nothing if this is not a number (number()) or not a signed 64-bit integer (whole()).
+  // Return nothing if this is not a number (number()), or not a signed 64-bit integer (whole()).
   std::optional<double> number() const;
   std::optional<std::int64_t> whole() const;
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }

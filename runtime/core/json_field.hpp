@@ -13,11 +13,12 @@
 
 namespace remap {
 
-// Limits the text: one megabyte needs up to 20 MB of memory. The largest fit that ships, a warp, has 0.3 MB.
+// Limits the text, because one megabyte needs up to 20 MB of memory. The largest fit that ships is a warp of
+// 0.3 MB.
 inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
-// Limits the entries of a list. No fit within its own limits needs so many numbers.
+// Limits the entries of a list. No valid fit has so many numbers.
 inline constexpr std::size_t kMostEntries = 100'000;
-// Limits remarks, methods and comments: people read them, and they become comments of headers.
+// Limits remarks, methods and comments, because people read them in headers.
 inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
 // Returns the values of a JSON text. If a key is repeated, the last field is used. Throws like SpannedJson
 // (json_spans.hpp). Also throws kInput, beginning with `context`, for a text beyond kLongestJson and for a

@@ -1,6 +1,6 @@
-// This file scans JSON strictly and stores the place of each value and key in the text. An editor
-// (text_edits.hpp) can then replace some bytes without moving others. Numbers stay text: 9007199254740993 and
-// 1E400 are read only on request.
+// This file scans JSON strictly, and stores the place of each value and key in the text. An editor
+// (text_edits.hpp) can then replace some bytes without moving others. Numbers stay text, such as
+// 9007199254740993 and 1E400, until somebody reads them.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,8 @@ class SpanValue;
 // Limits how deep values nest. Scanning, printing and destroying a value takes stack for each level, and
 // 65,000 levels overflow it. Files of this project nest six deep.
 inline constexpr std::size_t kDeepestJson = 100;
-// Limits the text: a glTF file may embed all its images. Each value takes 32 bytes of memory.
+// Limits the text. It can be long, because a glTF file may have all its images inside. Each value takes 32
+// bytes of memory.
 inline constexpr std::size_t kLongestSpannedText = std::size_t{1} << 30,
                              kMostSpannedValues = std::size_t{1} << 23;
 

@@ -6,7 +6,7 @@
 namespace remap {
 namespace {
 
-// Longer names are cut, because nobody mistypes more letters than this.
+// Only so many letters are compared, because nobody mistypes more letters.
 constexpr std::size_t kLettersCompared = 200;
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -61,7 +61,7 @@ std::string closest_name(std::string_view name, std::span<const std::string> can
   return *std::min_element(candidates.begin(), candidates.end(), nearer);
 }
 
-// If one name contains the other, treat them as this many typing errors apart.
+// If one name contains the other, treat them as so many typing errors apart.
 constexpr std::size_t kPartDistance = 3;
 
 std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates,

@@ -84,7 +84,7 @@ double rounded_up(double value, int digits) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   const double magnitude = std::floor(std::log10(std::fabs(value)));
   const double scale = std::pow(10.0, digits - 1 - magnitude);
-  // The margin absorbs rounding errors of the scaling: 0.07 becomes 7.000000000000001 hundredths.
+  // The margin compensates for rounding in the scaling, which makes 0.07 into 7.000000000000001 hundredths.
   const double scaled = std::ceil(std::fabs(value) * scale * (1.0 - 1e-14));
   return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1),
                        value);
@@ -92,7 +92,7 @@ double rounded_up(double value, int digits) {
 
 double rounded(double value, int digits) { return parse_number(scientific(value, digits)).value_or(value); }
 
-// Keeps the float in memory, because gcc 12 at -O3 does not round two neighbours in a vector.
+// Keeps the float in memory, because otherwise gcc 12 at -O3 does not round two neighbours in a vector.
 double rounded_to_float(double value) {
   const volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);

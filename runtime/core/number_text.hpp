@@ -10,7 +10,8 @@ namespace remap {
 // Returns the shortest text that reads back as exactly the same double, and `nan` or `inf` for these values.
 std::string number_text(double value);
 
-// Rounds `value` away from 0 to `digits` significant decimal digits, as reports show errors. 0 stays 0.
+// Rounds `value` up in magnitude to `digits` significant decimal digits, which is how reports show errors. 0
+// stays 0.
 double rounded_up(double value, int digits);
 
 // Rounds `value` to the closest number with `digits` significant decimal digits.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kTagDigits = 8;
 
-// Returns a text that identifies the machine since its start, and its PID namespace. The machine's name is
-// not enough, because cloned machines have the same name.
+// Returns a text that identifies the machine since it was started, and its PID namespace. The name of the
+// machine does not suffice, because cloned machines have the same name.
 std::string place_of_processes() {
   std::error_code ignored;
   std::string start;
@@ -27,7 +27,7 @@ std::string place_of_processes() {
          std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
 }
 
-// Returns the hash FNV-1a, 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
+// Returns the hash FNV-1a with 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
 std::string tag_of(const std::string& text) {
   std::uint32_t hash = 0x811c9dc5u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;

@@ -17,8 +17,8 @@ struct Character {
   std::uint32_t code = 0;
 };
 
-// These are the smallest codes of characters of one to four bytes. A smaller code in so many bytes is not
-// valid UTF-8.
+// These are the smallest codes of characters of one to four bytes. If a smaller code has so many bytes, it is
+// not valid UTF-8.
 constexpr std::array<std::uint32_t, 4> kLeastCodes = {0, 0x80, 0x800, 0x10000};
 
 std::size_t byte_count(unsigned char first) {
@@ -85,7 +85,7 @@ bool is_plain_text(std::string_view text) {
 
 std::string plain(std::string_view text, std::size_t longest) {
   std::string result;
-  std::size_t whole = 0;  // number of bytes of `result` that leave room for the dots
+  std::size_t whole = 0;  // number of bytes of `result` that leave room for "..."
   while (!text.empty()) {
     const Character character = first_character(text);
     result += is_plain(character) ? std::string(text.substr(0, character.bytes)) : escape_of(character);

@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Limits text from others in a message of this project to about one screen.
+// Limits text of others in a message. This is about one screen.
 inline constexpr std::size_t kLongestMessage = 2000;
 
 // Returns true if `text` is UTF-8 that looks the same in every program. It has no control characters and no
@@ -23,8 +23,8 @@ std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
 // Returns `text` in lower case, in every script. Bytes that are not UTF-8 stay unchanged.
 std::string without_case(std::string_view text);
 
-// Replaces every character that is_plain_text() refuses by `_`, because names of new files come from texts
-// that others wrote. Keeps bytes that are not UTF-8, because file names may be in other encodings.
+// Replaces every character that is_plain_text() refuses by `_`. This is for names of new files that come from
+// texts of others. Keeps bytes that are not UTF-8, because file names may have other encodings.
 std::string plain_file_name(std::string_view text);
 
 // Returns the parts of `text` between separators. Parts may be empty, so there is one more part than

@@ -23,7 +23,7 @@ namespace {
                                      (megabytes ? " MB" : " bytes") + ", which is the limit for such a file");
 }
 
-// Returns true if the caller's shell has opened the file that this name leads to.
+// Returns true if the name leads to a file that the caller's shell has opened.
 bool is_handed_down(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
   return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
@@ -33,7 +33,7 @@ void require_room(const fs::path& path, std::uintmax_t size, std::uintmax_t larg
   if (size > largest) fail_of_size(path, largest);
 }
 
-// Reads to the end of the pipe. A first signal does not stop the reading. A second signal ends the process
+// Reads to the end of the pipe. One signal does not stop it. A second signal ends the process
 // (interruption.hpp).
 std::string content_of_pipe(const fs::path& path, std::uintmax_t largest) {
   const OpenFile file(open_to_read(path));

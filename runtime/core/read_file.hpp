@@ -7,8 +7,8 @@
 
 namespace remap {
 
-// Limits the bytes that read_file() reads by default. This is 100 times the largest text file of this
-// project, and fits into the memory of any machine that runs it.
+// Limits the bytes that read_file() reads by default. This is 100 times the size of the largest text file of
+// remap, and fits into the memory of any machine that runs it.
 inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 
 // Returns the whole file as bytes. Besides regular files it reads only pipes that the caller's shell has

@@ -10,8 +10,8 @@ namespace remap {
 // characters or line breaks. Returns an empty text for a safe path.
 std::string fault_of_relative(const std::string& text);
 
-// Returns the path below a folder that `text` means, which is empty for the folder itself. Throws kInput,
-// beginning with `context`.
+// Returns `text` as a path below a folder. It is empty for the folder itself. If `text` is not safe, throws
+// kInput, beginning with `context`.
 std::filesystem::path safe_relative(const std::string& text, const std::string& context);
 // Checks a single name in the same way. The name may be empty.
 std::filesystem::path safe_name(const std::string& text, const std::string& context);

@@ -34,7 +34,7 @@ std::optional<FileFacts> facts_of(int descriptor);
 // Opens a file, and does not wait for the writer of a pipe. wait_for_writers() makes reads wait.
 int open_to_read(const std::filesystem::path& path);
 void wait_for_writers(int descriptor);
-// Reads bytes from `place` on, or from where the last call ended. It may return fewer than `size`, and
+// Reads bytes that begin at `place`, or where the last call ended. It may return fewer than `size`. It
 // returns 0 at the end.
 std::ptrdiff_t read_at(int descriptor, std::uintmax_t place, char* bytes, std::size_t size);
 std::ptrdiff_t read_on(int descriptor, char* bytes, std::size_t size);
@@ -44,9 +44,9 @@ std::ptrdiff_t read_on(int descriptor, char* bytes, std::size_t size);
 std::FILE* create_file(const std::filesystem::path& path);
 int descriptor_of(std::FILE* stream);
 
-// Opens the program's own file `below` a folder that others may write into, such as a journal. Follows no
-// link below the folder. Fails with EPERM unless it is a regular file of this user with one name. kAppend
-// creates the file.
+// Opens the program's own file `below` in a folder that others may write into, such as a journal. Follows no
+// link below the folder. Fails with EPERM if it is not a regular file of this user, or if it has several
+// names. kAppend creates the file.
 enum class OwnFile { kRead, kAppend };
 int open_own_file(const std::filesystem::path& folder, const std::filesystem::path& below, OwnFile use);
 // Appends to a file with one write, and waits for the disk.
@@ -95,8 +95,8 @@ struct ProcessCopy {
   int process = 0;
   int descriptor = -1;
 };
-// Starts a copy of this process. The copy calls `serve` with its end of the stream and then ends. It also
-// ends with this process, which must have only one thread. Returns nothing if the system cannot copy
+// Starts a copy of this process, which must have only one thread. The copy calls `serve` with its end of the
+// stream, and then ends. It also ends if this process ends. Returns nothing if the system cannot copy
 // processes.
 std::optional<ProcessCopy> copy_process(const std::function<void(int descriptor)>& serve);
 // Closes the stream and waits. Returns `by signal 11 (Segmentation fault)`, or `with exit code 0`.
@@ -105,8 +105,8 @@ std::string end_of(const ProcessCopy& copy);
 void interrupt(const ProcessCopy& copy);
 // Writes all bytes to the stream. Returns false if the other side has ended.
 bool send_all(int descriptor, const std::string& bytes);
-// Returns which descriptors have data to read or have ended. It ignores descriptors below 0. It waits until
-// one is ready, a signal comes, or a tenth of a second is over.
+// Waits until a descriptor has data to read or has ended, until a signal comes, or for a tenth of a second.
+// Returns which descriptors are ready. Ignores descriptors below 0.
 std::vector<bool> wait_to_read(const std::vector<int>& descriptors);
 
 struct ResourceUse {

@@ -35,7 +35,7 @@ FileFacts facts_of(const struct stat& found) {
 void watch(int signal, unsigned flags, void (*note)(int)) {
   struct sigaction action {};
   sigaction(signal, nullptr, &action);
-  if (action.sa_handler == SIG_IGN) return;  // nohup has set this signal to be ignored
+  if (action.sa_handler == SIG_IGN) return;  // nohup makes the program ignore this signal
   action = {};
   action.sa_handler = note;
   action.sa_flags = static_cast<int>(flags | SA_RESTART);
@@ -136,8 +136,7 @@ bool append_to_file(int descriptor, std::string_view text) {
 
 bool wait_for_disk(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS; }
 
-// A path that cannot be opened is read-only, so nothing in it is still to be written. The function then
-// returns true.
+// If a path cannot be opened, it is read-only, and the disk already has it. So the function returns true.
 bool wait_for_disk(const fs::path& path) {
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return !file.is_open() || wait_for_disk(file.get());

@@ -61,7 +61,7 @@ std::optional<ProcessCopy> copy_process(const std::function<void(int)>& serve) {
 }
 
 std::string end_of(const ProcessCopy& copy) {
-  // closing is not enough, because later copies have this end of the stream, too
+  // Closing would not suffice, because later copies have this end of the stream, too.
   ::shutdown(copy.descriptor, SHUT_RDWR);
   ::close(copy.descriptor);
   int status = 0;

@@ -64,7 +64,7 @@ int open_by(const fs::path& path, int flags) {
   return ::_wopen(path.c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
 
-// Limits a size, because no call here reads or writes more at once.
+// Limits a size to the largest that one call can read or write.
 unsigned int limited(std::size_t size) {
   return static_cast<unsigned int>(std::min(size, std::size_t{1} << 30));
 }
@@ -77,7 +77,7 @@ double seconds_of(const FILETIME& time) {
 
 char32_t small_letter(char32_t letter) {
   if (letter == 0 || letter > 0xffff) return letter;
-  // Windows treats a pointer below 0x10000 as one character.
+  // CharLowerW treats a pointer below 0x10000 as a character and returns its lower case.
   return static_cast<char32_t>(reinterpret_cast<std::uintptr_t>(
       ::CharLowerW(reinterpret_cast<LPWSTR>(static_cast<std::uintptr_t>(letter)))));
 }
@@ -151,7 +151,7 @@ bool create_scratch_folder(std::string& name) {
   return false;
 }
 
-// The name of the lock is the same for all processes that use the folder.
+// All processes that use the folder have the same name for the lock.
 FolderLock::FolderLock(const fs::path& folder) {
   std::error_code ignored;
   const std::size_t hash = std::hash<std::wstring>()(fs::weakly_canonical(folder, ignored).wstring());

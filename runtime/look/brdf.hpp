@@ -1,6 +1,6 @@
-// This file holds the BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section
-// 4), and the lobes of files that hold an exponent. Values are reflectance per steradian without the cosine
-// of the light.
+// This file holds the built-in BRDF models, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4),
+// and the lobes of file formats that store an exponent. Values are reflectance per steradian, without the
+// cosine of the light.
 #pragma once
 
 namespace remap {
@@ -60,8 +60,8 @@ double schlick_weight(double cosine);
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 
-// Return the normal distribution of microfacets, normalised to projected area 1, and the separable Smith
-// shadowing of one direction (Walter et al. 2007). Both accept kBeckmann, kGgx, kAs.
+// Return the normal distribution of microfacets, normalised to projected area 1, and the Smith shadowing of
+// one direction in its separable form (Walter et al. 2007). Both accept kBeckmann, kGgx and kAs.
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
 double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
 

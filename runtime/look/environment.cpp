@@ -57,9 +57,9 @@ double soft_step(double value, double edge, double softness) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// Returns a clear sky. The sun is at 40 degrees, to the right behind the camera. Its disc is widened to 1.5
-// degrees, so that a map of 256 rows resolves it. It gives a horizontal surface five times the irradiance of
-// the sky, as on a clear day. Below the horizon is grey ground.
+// Returns a clear sky with the sun at 40 degrees, to the right behind the camera. The sun's disc has 1.5
+// degrees, so that a map of 256 rows resolves it. The sun gives a horizontal surface five times the
+// irradiance of the sky, as on a clear day. The ground is grey.
 Environment clear_sky(int height) {
   const Direction sun = direction_at(40.0, 120.0);
   const double radius = 1.5 * pi / 180.0;

@@ -14,15 +14,15 @@ struct Direction {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
-// An Environment is linear RGB radiance. The map is twice as wide as high. Its top row is +y and its middle
-// column -z, the viewing direction of the camera. Columns to the right turn towards +x.
+// An Environment is linear RGB radiance. The map is twice as wide as high. Its top row is +y. Its middle
+// column is -z, the viewing direction of the camera. Columns to the right turn towards +x.
 struct Environment {
   std::string name;
   Image map;
 };
 
-// A MapPosition is the place of a direction in a map, 0 to 1 in width and height from the top left corner.
-// Two functions convert between directions and places.
+// A MapPosition is the place of a direction in a map. It is 0 to 1 in width and height, from the top left
+// corner. The following functions convert directions to places and places to directions.
 struct MapPosition {
   double u = 0.0, v = 0.0;
 };

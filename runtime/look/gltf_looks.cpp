@@ -44,7 +44,8 @@ class GltfReader {
   explicit GltfReader(const GltfFile& file)
       : container_(read_container(file.bytes, file.context)),
         json_(container_.json, file.context),
-        bytes_(json_, container_, file.bytes, file.resources),
+        bytes_(json_, container_, file.bytes,
+               [&resources = file.resources](const std::string& path) { return resources.open(path); }),
         images_(json_, bytes_, file.resources),
         added_(json_, container_, file.resources, file.context),
         textures_(options_, file.resources, images_, added_) {}

@@ -31,7 +31,7 @@ void require_extension(const std::filesystem::path& path, const std::string& ext
                 path.string() + ": the extension must be " + extension + " (" + expected + ")");
 }
 
-// `channels` are names; without them one channel is Y and three are R, G, B.
+// `channels` are names. If it is empty, one channel is Y and three are R, G, B.
 Picture picture_of(const Image& image, const std::vector<std::string>& channels = {}) {
   const std::vector<std::string> usual =
       image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};

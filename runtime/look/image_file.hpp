@@ -10,9 +10,9 @@
 
 namespace remap {
 
-// Reads the R, G and B of a picture as linear floats and ignores its other channels. The format is any that
-// OpenImageIO reads (EXR, HDR). A single channel becomes all three. Throws kInput for a file that cannot be
-// read, and for one with two channels.
+// Reads R, G and B of a picture as linear floats. Ignores other channels. The format is any that OpenImageIO
+// reads (EXR, HDR). If there is one channel, it becomes all three. Throws kInput for a file that cannot be
+// read, and for a file with two channels.
 Image read_rgb(const std::filesystem::path& path);
 
 // Writes a linear float32 EXR (zip) with `attributes` as metadata. `channels` holds the channel names; if it

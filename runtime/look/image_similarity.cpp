@@ -33,7 +33,7 @@ int mirrored(int position, int count) {
   return within < count ? within : period - 1 - within;
 }
 
-// Local means of these values are needed: both pictures, their squares, and their product.
+// Local means of these are needed: both pictures, their squares, and their product.
 enum Moment { kMeanA, kMeanB, kSquareA, kSquareB, kProduct, kMomentCount };
 using Moments = std::array<double, kMomentCount>;
 

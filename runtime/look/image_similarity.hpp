@@ -23,8 +23,8 @@ double rms_difference(std::span<const float> a, std::span<const float> b);
 // use_sample_covariance=False).
 std::vector<float> similarity_map(std::span<const float> a, std::span<const float> b, int width, int height);
 
-// Returns the mean of similarity_map without its 5 outermost rows and columns, as scikit-image does, or of
-// the whole map if nothing else is left.
+// Returns the mean of similarity_map() without its 5 outermost rows and columns, as scikit-image does. If
+// nothing is left, returns the mean of the whole map.
 double structural_similarity(std::span<const float> a, std::span<const float> b, int width, int height);
 
 }  // namespace remap

@@ -112,7 +112,7 @@ class PixelSampler {
   const Direction& normal() const { return frame_.normal; }
   const Direction& view() const { return view_; }
 
-  // Returns sample `i` of a technique. It uses a Hammersley point set with a random shift for each pixel,
+  // Returns sample `i` of a technique. It is from a Hammersley point set with a random shift for each pixel,
   // technique and half (Cranley and Patterson 1976).
   Direction direction(Technique technique, std::size_t half, std::uint32_t i) const {
     const std::uint64_t key = 2 * ((key_ * kTechniqueCount + technique) * kHalves + half);
@@ -129,7 +129,7 @@ class PixelSampler {
   }
 
  private:
-  // Returns a visible normal of GGX, from a stretched spherical cap (Dupuy and Benyoub 2023).
+  // Returns a visible normal of GGX. It is drawn from a stretched spherical cap (Dupuy and Benyoub 2023).
   Direction visible_normal(double alpha, double u, double azimuth) const {
     const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
                                             alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
@@ -146,8 +146,8 @@ class PixelSampler {
   std::uint64_t key_;
 };
 
-// Calls visit(half, light, geometry, solid_angle) for each direction of a pixel that is lit. The solid angle
-// is the one of a sample of its half.
+// Calls visit(half, light, geometry, solid_angle) for each lit direction of a pixel. `solid_angle` is the
+// share of directions that one sample of this half represents.
 void for_each_sample(const Mixture& mixture, const PixelSampler& sampler, const auto& visit) {
   for (std::size_t half = 0; half < kHalves; ++half)
     for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
@@ -181,7 +181,7 @@ void require(const SphereSampling& sampling) {
                                        " is out of range (16 to " + std::to_string(1 << 20) + ")");
 }
 
-// Returns the texel that the camera sees at a point of the ball, between the nearest four.
+// Returns the texel that the camera sees at a point of the ball, interpolated between the closest four.
 BallTexel texel_at(const TexturedBall& ball, const SurfacePoint& point) {
   const double u = 0.5 + std::atan2(point.x, point.z) / pi,
                v = std::acos(std::clamp(point.y, -1.0, 1.0)) / pi;
@@ -192,7 +192,7 @@ BallTexel texel_at(const TexturedBall& ball, const SurfacePoint& point) {
   for (int corner = 0; corner < 4; ++corner) {
     const int column = left + corner % 2, row = top + corner / 2;
     const double share = (1.0 - std::abs(x - column)) * (1.0 - std::abs(y - row));
-    if (share <= 0.0) continue;  // beyond the last column or row, where x or y is whole
+    if (share <= 0.0) continue;  // skips weights of 0, which may be beyond the last column or row
     const BallTexel& texel = ball.texels[static_cast<std::size_t>(row * ball.width + column)];
     mean.alpha += share * texel.alpha;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -243,7 +243,8 @@ SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_c
   values_.resize(material_count * kHalves * pixels_.size() * channel_count_);
 }
 
-// Returns an offset. Pixels are the outermost dimension, because a thread works on one pixel at a time.
+// Returns the offset of a pixel. Pixels are the outermost dimension, because a thread works on one pixel at a
+// time.
 std::size_t SpherePictures::offset(std::size_t material, std::size_t half, std::size_t pixel) const {
   return ((pixel * kHalves + half) * material_count_ + material) * channel_count_;
 }
@@ -298,7 +299,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
 
 namespace {
 
-// A BallPixel is one pixel with the materials of all balls there.
+// A BallPixel is one pixel, with the materials of all balls at this pixel.
 struct BallPixel {
   const PixelSampler& sampler;
   std::span<const TexturedBall> balls;

@@ -29,13 +29,14 @@ struct SphereSampling {
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
   const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
-  // With this set, all pixels use the same directions, so a few directions give a smooth picture with a
-  // smooth error. Without it, the error differs from pixel to pixel.
+  // If this is set, all pixels use the same directions. A few directions then give a smooth picture with a
+  // smooth error. Otherwise, the error differs from pixel to pixel.
   bool shares_directions = false;
 };
 
-// A SpherePictures holds linear RGB pictures of materials under each environment, at the pixels that show the
-// sphere. The directions are in two halves with separate results, whose difference gives the sampling error.
+// A SpherePictures holds linear RGB pictures of materials under each environment, for the pixels that show
+// the sphere. The directions of light form two halves, each with its own pictures. Their difference shows the
+// sampling error.
 class SpherePictures {
  public:
   SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution);
@@ -83,8 +84,8 @@ struct TexturedBall {
   std::vector<BallTexel> texels;
 };
 
-// Renders `balls` under one environment. Returns linear RGB of the pixels of shape_pixels(kSphere), for each
-// ball. All balls share their directions, as in render_spheres(). Throws like it.
+// Renders `balls` under one environment. Returns linear RGB for each ball, for the pixels of
+// shape_pixels(kSphere). All balls have the same directions, as in render_spheres(). Throws the same errors.
 std::vector<std::vector<float>> render_textured(const RadiancePyramid& environment,
                                                 std::span<const TexturedBall> balls,
                                                 const SphereSampling& sampling);
@@ -95,14 +96,14 @@ std::vector<float> display_values(std::span<const float> radiance);
 // A DisplayedSphere is a picture in display values. It may show another shape.
 struct DisplayedSphere {
   std::vector<float> colors;  // RGB of the pixels that show the sphere
-  std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
+  std::vector<float> luma;    // luma of the whole picture, row-major; 0 outside the sphere
 };
 
 // Converts `radiance`, linear RGB of `pixels`. These are row-major indices into a square of `resolution`.
 DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
                                  int resolution);
 
-// Like displayed_sphere(), for `colors` that are display values already.
+// Does the same as displayed_sphere() for `colors` that are display values already.
 DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
                                  int resolution);
 

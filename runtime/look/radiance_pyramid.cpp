@@ -21,7 +21,7 @@ struct Share {
 };
 using Shares = std::vector<std::vector<Share>>;
 
-// `measure(a, b)` returns the weight of the interval between two positions, which are 0 to 1.
+// `measure(a, b)` returns the weight of the interval between two positions from 0 to 1.
 template <typename Measure>
 Shares overlaps(int from, int to, const Measure& measure) {
   Shares shares(static_cast<std::size_t>(to));
@@ -39,7 +39,8 @@ Shares overlaps(int from, int to, const Measure& measure) {
   return shares;
 }
 
-// Returns weights of rows. A row's solid angle is proportional to its edges' difference of cosines.
+// Returns weights of rows. The solid angle of a row is proportional to the difference of the cosines at its
+// edges.
 Shares row_shares(int from, int to) {
   return overlaps(from, to, [](double a, double b) { return std::cos(pi * a) - std::cos(pi * b); });
 }
@@ -71,7 +72,7 @@ constexpr double kLampThreshold = 4.0;  // as a multiple of the mean luminance
 constexpr std::size_t kMostLamps = 128;
 constexpr int kLampTexels = 2;  // width and height of a spot
 
-// A Spot is a small part of a map with light above a luminance.
+// A Spot is a small part of a map whose light is above a certain luminance.
 struct Spot {
   int row, column;  // place of its first texel
   Lamp lamp;
@@ -177,9 +178,9 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
   // This is the size of a texel at the horizon of the finest level. Each level has four times the solid angle
-  // of the previous level. Krivanek and Colbert choose a coarser level to get smooth pictures from few
-  // samples. This is not needed here, because maps without lamps vary little. It would blur pictures and make
-  // them too similar.
+  // of the previous level. Krivanek and Colbert choose a coarser level, to get smooth pictures from few
+  // samples. This is not needed here, because maps without lamps vary little, and it would blur pictures and
+  // make them too similar.
   const double texel = pi / levels_.front().height;
   const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));

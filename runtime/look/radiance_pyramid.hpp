@@ -1,5 +1,5 @@
-// This file prepares environments for lookups over cones of directions, as a pyramid of grids. Each grid is
-// half as large as the previous one.
+// This file prepares environments, so that mean radiance over a cone of directions can be looked up. It makes
+// a pyramid of grids, each half as large as the previous grid.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +28,13 @@ class RadiancePyramid {
   // Returns the number of channels: three for each environment, in the order of the environments.
   std::size_t channel_count() const { return channel_count_; }
 
-  // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean.
+  // Returns at most 128 spots of 1.4 degrees (for 256 rows), with their radiance that exceeds four times the
+  // mean.
   const std::vector<Lamp>& lamps(std::size_t environment) const { return lamps_[environment]; }
 
-  // Writes the radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0),
-  // to `radiance`, one float per channel. Interpolation is trilinear and exact for constant environments.
+  // Writes the radiance without lamps from `direction` to `radiance`, one float for each channel. It is
+  // averaged over about `solid_angle` (steradian, > 0). Interpolation is trilinear, and exact for constant
+  // environments.
   void look_up(const Direction& direction, double solid_angle, float* radiance) const;
 
  private:

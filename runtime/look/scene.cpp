@@ -13,7 +13,8 @@ namespace {
 // Rays that graze the torus need the most steps.
 constexpr double kHitDistance = 1e-10;
 constexpr int kMostSteps = 500;
-// Shadow rays start this far above the surface, in sphere radii, so that they do not hit their own point.
+// Shadow rays start this far above the surface, in sphere radii. Otherwise they would hit the point where
+// they start.
 constexpr double kShadowOffset = 1e-6;
 
 const double kSine = std::sin(kTorusTilt * std::numbers::pi / 180.0);
@@ -30,7 +31,7 @@ SurfacePoint unit_vector(const SurfacePoint& v) {
   return {v.x * scale, v.y * scale, v.z * scale};
 }
 
-// Returns the closest point of the circle in the middle of the tube.
+// Returns the closest point of the circle that runs inside the torus, in the middle of its tube.
 SurfacePoint tube_middle(const SurfacePoint& p) {
   const double height = p.y * kSine + p.z * kCosine;  // along the axis
   const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
@@ -43,8 +44,8 @@ double torus_distance(const SurfacePoint& p) {
   return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
 }
 
-// Traces spheres (Hart 1996): steps of the exact distance never pass the surface. Returns the distance along
-// the ray, or a negative number if nothing is hit before `end`.
+// Traces spheres (Hart 1996). A step is as long as the distance to the surface, so it never passes the
+// surface. Returns the distance along the ray, or a negative number if the ray hits nothing before `end`.
 double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
   double t = start;
   for (int step = 0; step < kMostSteps && t < end; ++step) {

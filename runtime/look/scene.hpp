@@ -38,7 +38,7 @@ struct Scene {
 // Returns `headlight` for a light at the camera. Otherwise returns degrees, with the distance if it is not 3.
 std::string light_name(const Light& light);
 
-// A SurfacePoint is a point or direction in world space, which is view space (camera on +z).
+// A SurfacePoint is a point or direction in world space. World space is view space, with the camera on +z.
 struct SurfacePoint {
   double x, y, z;  // on the unit sphere, the position is also the normal
 };
@@ -69,12 +69,12 @@ struct SurfaceHit {
   SurfacePoint normal;
 };
 
-// Intersects the ray through the image at (column, row), as sphere_point does, with the shape. Returns false
-// if it misses.
+// Intersects the ray through the image at (column, row), like sphere_point(), with the shape. Returns false
+// if the ray misses.
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit);
 
-// Returns true if the shape casts its own shadow on the point, for a light at `light`. It is always false for
-// the sphere. There, the shadow is where the light is below the horizon, which this function does not test.
+// Returns true if the shape casts a shadow on its own point, for a light at `light`. This is always false for
+// the sphere. A sphere is dark where the light is below the horizon, which this function does not test.
 bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
 
 // Returns the indices, row by row, of the pixels whose centres show the shape.

@@ -33,8 +33,8 @@ bool all_within(const std::vector<float>& values, const Range& range) {
 
 enum class Look { kRoughness, kBoth };
 
-// Returns true if the images of grey texels lie in the later steps' domains. There is a texel for each pair
-// of width and specular.
+// Returns true if the first step maps grey texels into the domains of the later steps. The texels are all
+// pairs of the given widths and speculars.
 bool images_fit(Steps steps, std::vector<float> width, std::vector<float> specular, Look look) {
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const std::array<const float*, 1> in = {specular.data()};
@@ -47,7 +47,8 @@ bool images_fit(Steps steps, std::vector<float> width, std::vector<float> specul
   return true;
 }
 
-// Returns the value furthest from `good` towards `bad` for which `holds` is true. It must be true at `good`.
+// Returns the value between `good` and `bad` that is furthest from `good` and for which `holds` is true. It
+// must be true for `good`.
 template <typename Predicate>
 float furthest(float good, float bad, const Predicate& holds) {
   if (holds(bad)) return bad;
@@ -58,7 +59,8 @@ float furthest(float good, float bad, const Predicate& holds) {
   }
 }
 
-// Rounds `value` to 4 significant digits, downwards or upwards. Returns `end` if the value is that end.
+// Rounds `value` to 4 significant digits, downwards or upwards. If it equals `end` or 0, returns `end`
+// unchanged.
 double shortened(float value, double end, bool upwards) {
   if (value == float_of(end) || value == 0.0f) return end;
   const double exact = static_cast<double>(value);

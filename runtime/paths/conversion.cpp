@@ -14,9 +14,10 @@ namespace {
 struct NamedEnd {
   std::string name;
   const WorkflowModel* model = nullptr;  // null if `name` is a BRDF model
-  std::optional<WorkflowKind> kind;      // kind in the request
+  std::optional<WorkflowKind> kind;      // kind that the user requested
 
-  // The graph gives the roughness parameter of a BRDF model. The search for a path refuses unknown models.
+  // The graph knows the roughness parameter of a BRDF model. Unknown models are refused later, in the search
+  // for a path.
   const ConverterGraph* graph = nullptr;
 
   bool has_workflow() const { return model != nullptr || kind; }
@@ -29,7 +30,7 @@ struct NamedEnd {
 
 constexpr std::size_t kNamesShown = 5;
 
-// Refuses a name that is not a model, a renderer or a workflow, and suggests the closest of all names.
+// Refuses a name that is not a model, a renderer or a workflow, and suggests the closest name.
 void require_known(const std::string& word, const std::string& name, const ConverterGraph& graph,
                    const std::string& all_names) {
   if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
@@ -43,6 +44,27 @@ void require_known(const std::string& word, const std::string& name, const Conve
                     (near.empty() ? "" : "closest: " + near + "; ") + "all: " + all_names + ")");
 }
 
+// Refuses models of `via` that no path can pass between `source` and `target`, which are BRDF models.
+void require_via(const ConversionRequest& request, const ConverterGraph& graph, const std::string& source,
+                 const std::string& target) {
+  const std::vector<std::string>& via = request.via;
+  for (auto model = via.begin(); model != via.end(); ++model) {
+    const std::string& word = request.words.via;
+    const std::string place = word + " " + *model + ": ";
+    if (const std::vector<std::string> own = graph.models_of(*model);
+        !graph.has_model(*model) && !own.empty())
+      throw usage_error(place + "is a renderer, not a model (choose one of its models: " + joined(own, ", ") +
+                        ")");
+    if (!graph.has_model(*model))
+      throw usage_error(word + ": unknown model '" + *model + "'" + suggestion(*model, graph.models()));
+    if (*model == source || *model == target)
+      throw usage_error(place + "the path " + (*model == source ? "begins" : "ends") +
+                        " with this model already (remove this option)");
+    if (std::find(via.begin(), model, *model) != model)
+      throw usage_error(place + "given twice (remove one of the two)");
+  }
+}
+
 NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, const std::string& word,
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
@@ -53,8 +75,9 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
   return end;
 }
 
-// Returns the model that the target names. For a renderer this is the model closest to the source. A workflow
-// around the source's own model of that renderer needs no other model.
+// Returns the model that the target names. If it names a renderer, this is the renderer's model that is
+// closest to the source. If the source is a model of that renderer and a workflow is converted, the model
+// stays.
 std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
   const std::string& to = request.target.name;
   const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
@@ -64,11 +87,11 @@ std::string target_named(const ConversionRequest& request, const NamedEnd& from)
   if (graph.has_model(to) || graph.models_of(to).empty()) return to;
   if (renderer_of(source) == to) {
     if (from.has_workflow() || request.target_workflow) return source;
-    throw usage_error(request.words.target + ": " + source + " is a model of " + to +
-                      " already (choose another model)");
+    throw usage_error(request.words.target + " " + to + ": the source " + source +
+                      " is already a model of this renderer (choose one of its other models)");
   }
   const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, to, request.via});
-  if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses it
+  if (paths.empty()) return graph.models_of(to).front();  // the search for a path refuses this model
   return target_model(closest_path(paths));
 }
 
@@ -80,8 +103,8 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
-// Returns the surface that a name means. The words `openpbr` and `standard-surface` mean metallic workflows
-// elsewhere.
+// Returns the surface that a name means. In other conversions, the words `openpbr` and `standard-surface`
+// mean metallic workflows.
 std::optional<Surface> surface_of(const ModelName& model) {
   constexpr NamedValues<Surface, 4> kWords = {{{Surface::kOpenPbr, "openpbr"},
                                                {Surface::kOpenPbr, "open-pbr-surface"},
@@ -98,7 +121,7 @@ std::optional<Surface> surface_of(const ModelName& model) {
 
 bool is_hub(Surface surface) { return surface == Surface::kOpenPbr || surface == Surface::kStandardSurface; }
 
-// Sets the translation if the request asks for one.
+// Sets the translation between surfaces if the request asks for one.
 void choose_translation(const ConversionRequest& request, ConversionChoice& choice) {
   const auto source = surface_of(request.source), target = surface_of(request.target);
   if (!request.translates_surfaces || request.uses_fit_file || !source || !target || *source == *target ||
@@ -122,13 +145,13 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   name(*choice.source, *source);
   name(*choice.target, *target);
   choice.translation = SurfaceTranslation{*source, *target};
-  choice.notes.clear();  // aliases mean surfaces here
+  choice.notes.clear();  // notes on aliases do not apply, because names mean surfaces here
   choice.changes_nothing = false;
 }
 
-// Sets the diffuse convention of each end whose model leaves it open. A requested convention comes first.
-// Otherwise the end gets the convention of the other end, so that a round trip changes nothing. If both
-// models are fixed, a request overrides the source's convention.
+// Sets the diffuse convention of each end whose model leaves it open. An end gets the requested convention.
+// Without a request, it gets the convention of the other end, so that a round trip changes nothing. If both
+// models have a fixed convention, a request overrides the source's.
 void choose_diffuse(const ConversionRequest& request, const WorkflowModel& source,
                     const WorkflowModel& target, ConversionChoice& choice) {
   std::vector<WorkflowEnd*> open;
@@ -147,10 +170,10 @@ void choose_diffuse(const ConversionRequest& request, const WorkflowModel& sourc
     models += (models.empty() ? "" : " and ") + model_of(*end);
   }
   const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
-  choice.assumptions.push_back(
-      "the diffuse convention of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
-      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (if not, use " +
-      request.words.diffuse_convention + " " + (is_plain ? "scaled" : "plain") + ")");
+  choice.assumptions.push_back(std::string("assuming ") + (is_plain ? "plain" : "scaled") + " diffuse for " +
+                               models + (open.size() == 1 ? ", as in " + model_of(known) : "") +
+                               " (otherwise, use " + request.words.diffuse_convention + " " +
+                               (is_plain ? "scaled" : "plain") + ")");
 }
 
 void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
@@ -164,8 +187,8 @@ void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
 
 void note_alias(const ModelName& given, ConversionChoice& choice) {
   if (given.alias != nullptr)
-    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + ": " +
-                           std::string(given.alias->meaning));
+    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + " (" +
+                           std::string(given.alias->meaning) + ")");
 }
 
 }  // namespace
@@ -200,8 +223,11 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
     if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
   }
   const NamedEnd from = named_end(request.source.name, request.source_workflow, words.source_workflow, graph);
+  if (!from.name.empty()) require_via(request, graph, from.workflow().brdf, "");
   const std::string target = target_named(request, from);
   const NamedEnd to = named_end(target, request.target_workflow, words.target_workflow, graph);
+  if (!from.name.empty() && !target.empty())
+    require_via(request, graph, from.workflow().brdf, to.workflow().brdf);
   ConversionChoice choice;
   choice.source_brdf = from.name;
   choice.target_brdf = target;
@@ -240,7 +266,7 @@ WorkflowStages stages_of(const ConversionChoice& choice, const Converter* brdf) 
 
 namespace {
 
-// Adds the material around the BRDF.
+// Adds the stages of the workflows around the BRDF.
 BuiltConversion with_material(const ConversionChoice& choice, BuiltConversion conversion,
                               InstructionSet set) {
   if (conversion.brdf != nullptr && !conversion.brdf->self_test())

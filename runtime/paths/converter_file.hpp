@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// An UnusedFit is a fit between workflows: a formula that is built in, or a network, which texremap does not
-// run.
+// An UnusedFit is a fit between workflows that texremap does not run. It is a network, or a formula that
+// texremap has already.
 struct UnusedFit {};
 
 using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;

@@ -112,7 +112,7 @@ void ConverterGraph::hold_against_measured() {
   }
 }
 
-// Returns the node of `model`, which must be in the graph.
+// Returns the index of `model`, which must be in the graph.
 std::size_t ConverterGraph::node(const std::string& model) const {
   return static_cast<std::size_t>(std::lower_bound(models_.begin(), models_.end(), model) - models_.begin());
 }
@@ -174,7 +174,7 @@ std::vector<ConverterPath> ConverterGraph::paths_to_renderer(const PathRequest& 
   return paths;
 }
 
-// Returns the models that a request names, each once. The graph knows them.
+// Returns the models that a path must pass, each once. All of them must be in the graph.
 std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) const {
   std::vector<std::string> sources, targets;
   for (const Converter* converter : converters_) {
@@ -194,7 +194,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   return nodes;
 }
 
-// Explains why no path goes through `waypoints`.
+// Throws an error that explains why no path goes through `waypoints`.
 void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
   std::vector<std::string> walk = {models_[waypoints.front()]};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {

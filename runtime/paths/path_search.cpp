@@ -11,8 +11,8 @@ namespace {
 
 using Cost = std::int64_t;
 
-// Returns the least cost from one node to another over nodes that are not closed (Dijkstra 1959). Returns
-// nothing if they are not connected.
+// Returns the least cost from one node to another, over nodes that are not closed (Dijkstra 1959). Returns
+// nothing if no such path exists.
 std::optional<Cost> least_cost(const DirectedGraph& graph, std::size_t from, std::size_t to,
                                std::vector<bool> closed) {
   using Reached = std::pair<Cost, std::size_t>;
@@ -31,7 +31,7 @@ std::optional<Cost> least_cost(const DirectedGraph& graph, std::size_t from, std
   return std::nullopt;
 }
 
-// A Beginning is the first part of a path. `bound` is its cost plus the least cost that can follow.
+// A Beginning is the first part of a path. `bound` is its cost plus the least cost of the rest.
 struct Beginning {
   Cost bound = 0;
   Cost cost = 0;
@@ -47,9 +47,10 @@ struct ComesLater {
   }
 };
 
-// A Search extends beginnings in the required order of paths. A path never sorts before one of its
-// beginnings, so the first complete path is the least, and the second is the next. Bounds ignore nodes that
-// the beginning has visited. A beginning that can no longer reach a waypoint is dropped at once.
+// A Search extends beginnings in the order that paths must have. A path never sorts before its beginnings. So
+// the first path that is complete is the least, and the second is the next. The least cost of the rest may
+// use nodes that the beginning has visited. A beginning that cannot reach a waypoint any more is dropped at
+// once.
 class Search {
  public:
   Search(const DirectedGraph& graph, const std::vector<std::size_t>& waypoints)
@@ -83,7 +84,7 @@ class Search {
     return nodes;
   }
 
-  // Returns true if the leg has already left a node from which another edge leads to the end of `edge`.
+  // Returns true if the current leg has left another node that also has an edge to the end of `edge`.
   bool goes_round(const Beginning& beginning, const DirectedEdge& edge) const {
     if (graph_.detours) return false;
     const std::size_t leg_start = waypoints_[beginning.next - 1];
@@ -111,7 +112,8 @@ class Search {
     }
   }
 
-  // Returns the sum of the least costs from the beginning's end through the remaining waypoints in order.
+  // Returns the least cost from the last node of the beginning through the remaining waypoints, in their
+  // order.
   std::optional<Cost> least_rest(const Beginning& beginning) const {
     Beginning from = beginning;
     Cost sum = 0;

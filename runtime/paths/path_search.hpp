@@ -1,5 +1,5 @@
 // This file finds the least paths through a directed graph of numbered nodes and edges. path.hpp explains
-// them.
+// what paths mean here.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@ struct DirectedEdge {
 
 struct DirectedGraph {
   std::size_t node_count = 0;
-  std::vector<DirectedEdge> edges;  // any number between the same two nodes
+  std::vector<DirectedEdge> edges;  // two nodes may have several edges
   // If false, a path that visits two nodes joined by an edge must use such an edge. Waypoints divide a path
   // into legs, and the rule applies to each leg separately.
   bool detours = true;
 };
 
-// Returns for each node whether a walk of any length, even of none, leads from `start` to it. If `forwards`
-// is false, the walk follows the edges backwards.
+// Returns for each node whether it can be reached from `start`. `start` itself is reached. If `forwards` is
+// false, edges are followed backwards.
 std::vector<bool> connected(const DirectedGraph& graph, std::size_t start, bool forwards);
 
 // Returns up to `count` paths that pass through `waypoints` (2 or more, each once) in this order and visit no

@@ -1,4 +1,5 @@
-// The assembler copies the file, because a string literal would take the compiler seconds.
+// This file includes generated/converters.json with the assembler, because a string literal would take the
+// compiler seconds.
 #include "paths/shipped_text.hpp"
 
 extern "C" {
@@ -8,10 +9,10 @@ extern const char remap_shipped_text_end[];
 
 #define REMAP_TEXT_OF(name) #name
 #define REMAP_TEXT(name) REMAP_TEXT_OF(name)
-// Returns the assembler's form of a C name.
+// Makes the name that the assembler uses for a C name.
 #define REMAP_SYMBOL(name) REMAP_TEXT(__USER_LABEL_PREFIX__) #name
 #define REMAP_LABEL(name) ".globl " REMAP_SYMBOL(name) "\n" REMAP_SYMBOL(name) ":\n"
-// WebAssembly needs the size to link data.
+// Linkers for WebAssembly need the size of data.
 #define REMAP_SIZE(name, size) ""
 
 #if defined(_WIN32)

@@ -9,12 +9,12 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A NamedMap is a map of a folder, with the ways to read its name.
+// A NamedMap is a map of a folder, with all ways to read its name.
 struct NamedMap {
   TileGroup files;
   std::vector<NameReading> readings;
   std::size_t chosen = 0;  // index of the chosen reading
-  bool numbered = false;   // the number before the word belongs to the name of the set
+  bool numbered = false;   // the number before the map's word belongs to the set's name
 
   const NameReading& reading() const { return readings[chosen]; }
   const std::string& stem() const { return numbered ? reading().numbered_stem : reading().stem; }
@@ -25,12 +25,13 @@ std::string readable_name(const TileGroup& files) {
   const auto without_extension = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   if (!files.pattern) return without_extension(files.name);
   const std::string after = without_extension(files.pattern->after);
-  const bool doubled = !files.pattern->before.empty() && !after.empty();  // both separators around the tile
+  const bool doubled = !files.pattern->before.empty() && !after.empty();  // separators on both sides
   return files.pattern->before + (doubled ? after.substr(1) : after);
 }
 
-// Prefers a shorter word if only its stem belongs to another map. In dark_metallic_roughness the longer word
-// may include the end of the set's name. Doubtful readings are dropped unless another map has their stem.
+// Chooses a shorter word if the rest of the name belongs to another map, but the rest before a longer word
+// does not. For example, in dark_metallic_roughness the longer word may include the end of the set's name.
+// Drops doubtful readings unless another map has the same stem.
 void choose_readings(std::vector<NamedMap>& maps) {
   std::map<std::string, int> map_counts;
   for (const NamedMap& map : maps) ++map_counts[map.readings.front().stem];
@@ -43,7 +44,8 @@ void choose_readings(std::vector<NamedMap>& maps) {
   }
 }
 
-// Keeps numbers that distinguish sets: in wood_512_rough and wood_1024_rough they are not resolutions.
+// Keeps numbers that distinguish sets. In wood_512_rough and wood_1024_rough, the numbers are not
+// resolutions.
 void choose_stems(std::vector<NamedMap>& maps) {
   std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
   std::set<std::string> numbered;
@@ -72,7 +74,7 @@ FoundMap found_map(const fs::path& folder, const NamedMap& map) {
 
 std::string place_of(const FoundSet& set) { return display_path(set.folder / set.name); }
 
-// Returns the only candidate for a role. Several candidates make the set faulty.
+// Returns the only map that has such a role. If several maps have it, the set is faulty.
 std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
   const std::vector<MapUse> candidates = uses(set, wanted);
   if (candidates.size() == 1) return candidates.front();

@@ -18,9 +18,9 @@ namespace remap {
 
 // A FoundMap is one map of a set: a file, or the tiles of a pattern.
 struct FoundMap {
-  std::filesystem::path path;          // relative to the root; `<UDIM>` in the name means tiles
+  std::filesystem::path path;          // relative to the root; `<UDIM>` in the name if the map has tiles
   std::optional<TilePattern> pattern;  // pattern of the file name
-  std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
+  std::vector<Tile> tiles;  // paths relative to the root, sorted by number; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
   bool is_repeated = false;   // another map of the set provides one of its parameters
@@ -51,9 +51,9 @@ struct FoundSet {
   std::vector<std::string> remarks;  // messages of one line about a skipped or faulty set
 };
 
-// Returns the maps, or the channels of packed maps, that have a role for which `wanted` returns true.
+// Returns the maps and the channels of packed maps whose role `wanted` accepts.
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
-// Returns the channel names for a request, or nothing for the whole image.
+// Returns the channel names for a request. Returns nothing if the request is for the whole image.
 std::vector<std::string> channel_names(Channels channels);
 // Returns the encoding of a map of this role. Returns nothing if the map holds the model's roughness.
 std::optional<RoughnessEncoding> encoding_of(Role role);
@@ -63,23 +63,23 @@ void judge(FoundSet& set);
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
 struct DiscoveryOptions : WalkOptions {
-  const Naming* naming = nullptr;  // null for the built-in conventions
+  const Naming* naming = nullptr;  // if null, the built-in conventions are used
 };
 
 struct Discovery {
-  std::vector<FoundSet> sets;  // sorted by folder and name, by bytes
+  std::vector<FoundSet> sets;  // sorted by folder and name, byte by byte
   std::vector<std::filesystem::path>
-      unrecognised;                           // images without a naming convention; tiles as one pattern
-  std::vector<std::filesystem::path> others;  // files of WalkOptions::also, by bytes
+      unrecognised;                           // images that match no naming convention; tiles as one pattern
+  std::vector<std::filesystem::path> others;  // files of WalkOptions::also, sorted byte by byte
   std::vector<WalkProblem> problems;          // folders and files that could not be read
   std::map<std::filesystem::path, std::uintmax_t> sizes;  // sizes from a manifest; otherwise empty
 };
 
-// Finds the sets of a folder. The maps of a set lie in one folder and share a stem: the name without the word
-// of the map, resolution and tile. If a name can be read in two ways (dark_metallic_roughness), the longer
-// word wins, unless only the shorter one leaves the stem of another map. The result does not depend on the
-// order in which the system lists files. Throws kInput if the root cannot be read; all other problems are
-// part of the result.
+// Finds the sets of a folder. The maps of a set lie in one folder and have the same stem, which is the name
+// without the word of the map, resolution and tile. If a name can be read in two ways
+// (dark_metallic_roughness), the longer word wins, unless only the stem of the shorter word belongs to
+// another map. The result does not depend on the order in which the system lists files. Throws kInput if the
+// root cannot be read. All other problems are part of the result.
 Discovery find_sets(const std::filesystem::path& root, const DiscoveryOptions& options);
 
 }  // namespace remap

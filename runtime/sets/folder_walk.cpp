@@ -36,7 +36,7 @@ class Walker {
       : root_(root), recursive_(options.recursive), also_(options.also) {
     for (const fs::path& folder : options.excluded)
       if (const auto found = facts_of(folder)) visited_.insert(found->identity);
-    // The root is searched even if results are written there, too.
+    // The root is searched even if it is also the folder for results.
     if (const auto found = facts_of(root)) visited_.erase(found->identity);
   }
 

@@ -7,8 +7,8 @@
 
 namespace remap {
 
-// Returns the whole path as plain() writes it. A file name may hold any byte, but a message must be one line
-// and must not control a terminal.
+// Returns the whole path with plain(). A file name may hold any byte, but a message must be one line and must
+// not control a terminal.
 std::string display_path(const std::filesystem::path& path);
 
 struct WalkOptions {
@@ -35,10 +35,10 @@ struct Walk {
   std::vector<WalkProblem> problems;  // in any order
 };
 
-// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx webp. It skips
-// hidden names, and so also unfinished results (files.hpp). It follows symbolic links. It visits each folder
-// once, under its own path if that lies below the root, so loops end. Unreadable files and folders become
-// problems. Throws kInput only if the root itself cannot be read.
+// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx webp. Skips
+// hidden names, which include unfinished results (files.hpp). Follows symbolic links, but visits each folder
+// only once, so that loops end. A folder below the root gets its own path, not the path of a link. Files and
+// folders that cannot be read become problems. Throws kInput only if the root itself cannot be read.
 Walk walk_images(const std::filesystem::path& root, const WalkOptions& options);
 
 }  // namespace remap

@@ -15,8 +15,8 @@ inline bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 inline bool is_lower(char c) noexcept { return c >= 'a' && c <= 'z'; }
 inline bool is_upper(char c) noexcept { return c >= 'A' && c <= 'Z'; }
 
-// Converts ASCII letters to lower case and keeps all other bytes. So it does not depend on the locale and is
-// safe for UTF-8.
+// Converts ASCII letters to lower case and keeps all other bytes. The result does not depend on the locale,
+// and UTF-8 stays valid.
 inline char lower(char c) noexcept { return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c; }
 inline std::string lower(std::string_view text) {
   std::string result(text);

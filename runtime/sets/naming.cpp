@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// A NameParts holds the pieces of a name up to the word of the map. Resolution, format and ignored words
-// after it are removed.
+// A NameParts holds the pieces of a name up to the word of the map. The resolution, the format and ignored
+// words after this word are removed.
 struct NameParts {
   std::string_view name;
   std::vector<NamePiece> pieces;
@@ -47,14 +47,14 @@ bool begins_part(std::string_view name, std::size_t i) {
 
 bool is_acronym(std::string_view word) { return std::none_of(word.begin(), word.end(), is_lower); }
 
-// A Stem is the end of the set's name, and the resolution between it and the word of the map.
+// A Stem is the result of stem_before(): where the set's name ends, and where the resolution stands.
 struct Stem {
   std::size_t end = 0;           // end of the set's name
-  std::size_t numbered_end = 0;  // the end after a number that may belong to the name
+  std::size_t numbered_end = 0;  // end of the set's name if a number after it belongs to it
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };
 
-// Steps back over the resolution before piece `word`: x_4K_Gloss, x_4K-PNG_Color.
+// Returns where the set's name ends before piece `word`, without a resolution: x_4K_Gloss, x_4K-PNG_Color.
 Stem stem_before(const NameParts& parts, std::size_t word) {
   const auto piece = [&](std::size_t back) { return parts.pieces[word - back].in(parts.name); };
   const auto end_of = [&](std::size_t count) { return count == 0 ? 0 : parts.pieces[count - 1].end; };
@@ -93,8 +93,8 @@ std::string word_key(std::string_view word) {
 }
 
 struct Naming::Ending {
-  std::string key;                // its letters in lower case
-  std::vector<std::size_t> cuts;  // offsets of its separators in `key`
+  std::string key;                // letters of the ending, in lower case
+  std::vector<std::size_t> cuts;  // offsets in `key` where the name has separators
   std::string_view text;          // as written in the name
   bool follows_separator = true;  // also true at the beginning of the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
@@ -119,8 +119,9 @@ Naming::Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words
   }
 }
 
-// Returns the best of the words that `ending` spells. Words of the user's conventions come first, then words
-// with the same spelling. Then come words whose convention has resolutions here, then the first of the table.
+// Returns the best of the words that `ending` spells. The user's conventions win over built-in conventions.
+// Then a word with exactly the same spelling wins, then a word whose convention has the resolution in this
+// place, then the first word of the table.
 const Naming::Word* Naming::best_word(const Ending& ending) const {
   const auto found = words_.find(ending.key);
   if (found == words_.end()) return nullptr;
@@ -142,7 +143,8 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   return best;
 }
 
-// Returns the end of the name from `begin`, which lies in piece `first`. Returns nothing if it is too long.
+// Returns the end of the name that starts at `begin` in piece `first`. Returns nothing if it is longer than
+// every word.
 std::optional<Naming::Ending> Naming::ending_from(const NameParts& parts, std::size_t first,
                                                   std::size_t begin) const {
   Ending ending;
@@ -188,7 +190,7 @@ std::optional<NameReading> Naming::read_pair(std::string_view name) const {
   return std::nullopt;
 }
 
-// Reads `ROUGHNESS_Robot`. The word in front counts if another map has the same stem.
+// Reads `ROUGHNESS_Robot`. Such a reading is valid only if another map has the same stem.
 std::vector<NameReading> Naming::read_front(std::string_view name) const {
   const std::vector<NamePiece> pieces = name_pieces(name);
   for (std::size_t count = std::min<std::size_t>(3, pieces.size() - std::min<std::size_t>(1, pieces.size()));

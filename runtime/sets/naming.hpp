@@ -76,7 +76,7 @@ enum class Role {
   kOther,  // recognised, without a role here: masks, coats, sheen
 };
 
-// These are the names in naming files.
+// These are the names of roles in naming files.
 inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"},
                                                   {Role::kGlossiness, "glossiness"},
                                                   {Role::kGlossinessSquared, "glossiness_squared"},
@@ -97,7 +97,7 @@ inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"
                                                   {Role::kIor, "ior"},
                                                   {Role::kOther, "other"}}};
 inline std::string_view role_name(Role role) { return name_of(kRoles, role); }
-// Returns true if the role determines the roughness. A set has one such map.
+// Returns true if the role determines the roughness. A set has at most one map with such a role.
 bool is_roughness(Role role);
 template <Role kRole>
 bool is(Role role) {
@@ -107,7 +107,7 @@ bool is(Role role) {
 // A Channels value is the channels of a file that hold a role.
 enum class Channels { kWhole, kRed, kGreen, kBlue, kAlpha, kRgb };
 
-// These are the names in naming files; `all` means the whole map.
+// These are the names of channels in naming files. `all` means the whole map.
 inline constexpr NamedValues<Channels, 6> kChannels = {{{Channels::kWhole, "all"},
                                                         {Channels::kRed, "R"},
                                                         {Channels::kGreen, "G"},
@@ -151,10 +151,10 @@ struct Habit {
 struct NameReading {
   std::string stem;  // name of the set; empty if the map's word is the whole name
   // This is the stem with the number before the word of the map: wood_1024 in wood_1024_rough. The number may
-  // be a resolution or belong to the set.
+  // be a resolution, or part of the set's name.
   std::string numbered_stem;
   std::string habit;      // the name of the convention
-  bool doubtful = false;  // counts only if another map has the same stem
+  bool doubtful = false;  // valid only if another map has the same stem
   std::vector<ChannelMeaning> meaning;
 };
 
@@ -163,12 +163,13 @@ struct NameParts;
 // Naming holds naming conventions, indexed for reading names. Copies are independent.
 class Naming {
  public:
-  // If two conventions match equally well, the earlier one wins. `ignored_words` are as in the file.
+  // If two conventions match equally well, the earlier one wins. `ignored_words` has the meaning of the
+  // member in naming files.
   Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words);
 
-  // Returns the ways to read `name`, a file name without extension and tile. The longest word, which is the
-  // likeliest, comes first. A word in front counts only if no word ends the name. Returns nothing if no
-  // convention matches.
+  // Returns the ways to read `name`, a file name without extension and tile. The longest word comes first,
+  // because it is the most likely. A word at the beginning is read only if the name ends with no word.
+  // Returns nothing if no convention matches.
   std::vector<NameReading> read(std::string_view name) const;
 
   const std::vector<Habit>& habits() const noexcept { return habits_; }
@@ -179,7 +180,7 @@ class Naming {
     std::size_t habit = 0;
     std::size_t rule = 0;
     std::string text;               // as the table writes it
-    std::vector<std::size_t> cuts;  // offsets where separators may be, in the word without separators
+    std::vector<std::size_t> cuts;  // offsets in the word, without separators, where a separator may be
   };
   struct Ending;                                                   // a part of a name that may be a word
   std::vector<NameReading> read_end(std::string_view name) const;  // words at the end
@@ -195,20 +196,23 @@ class Naming {
   std::size_t longest_word_ = 0;
 };
 
-// Returns true if a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. Map words must not be.
+// Returns true if a piece of a name is a resolution, such as 4K, 1024 or 2048x2048. A map's word must not be
+// a resolution.
 bool is_resolution(std::string_view piece);
 
-// Returns true if a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). Map words must not be.
+// Returns true if a piece is a format or quality next to a resolution (4K-PNG, 2K-HQ). A map's word must not
+// be such a piece.
 bool is_format_word(std::string_view piece);
 
-// Returns a word in lower case without separators. Words with equal keys are the same word.
+// Returns a word in lower case without separators. Two words with the same key are treated as one word.
 std::string word_key(std::string_view word);
 
 // Returns the conventions of Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF, Mari and
 // common renderers.
 const Naming& built_in_naming();
 
-// Returns the built-in conventions extended by the ones in `file`. Throws kInput, with file and field.
+// Returns the built-in conventions together with the conventions in `file`. Throws kInput, with file and
+// field.
 Naming read_naming(const std::filesystem::path& file);
 
 // Reads the text of a naming file in the same way. Errors begin with `context`.

@@ -15,7 +15,8 @@ extern const std::string_view kNamingText;
 
 namespace {
 
-// Refuses unknown fields, because a mistyped optional field would otherwise go unnoticed.
+// Refuses unknown fields, because otherwise nobody would notice a typing error in the name of an optional
+// field.
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
   field.require(field.json().fields() != nullptr, "an object");
   for (const auto& [key, value] : *field.json().fields())
@@ -23,7 +24,7 @@ void refuse_unknown_fields(const Field& field, const std::vector<std::string>& k
       field.fail("unknown field '" + key + "'" + suggestion(key, known));
 }
 
-// Returns the value of the enumeration that the text names. Messages call it `noun`.
+// Returns the value that the text names. Messages call the value `noun`.
 template <typename Value, std::size_t Count>
 Value read_named(const Field& field, const NamedValues<Value, Count>& table, const std::string& noun) {
   const std::string text = field.text();
@@ -37,7 +38,7 @@ ChannelMeaning read_meaning(Channels channels, const Field& field) {
   return {channels, read_named(field, kRoles, "role")};
 }
 
-// Refuses a rule that names roughness or specular twice, because a converter reads each from one map.
+// Refuses a rule with two channels for roughness or for specular, because a converter reads one of each.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
   const auto width = [](const ChannelMeaning& entry) { return is_roughness(entry.role); };
   const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
@@ -50,7 +51,7 @@ std::vector<ChannelMeaning> read_channels(const Field& field) {
   field.require(field.json().fields() != nullptr && !field.json().empty(),
                 "an object of channels and their roles");
   std::vector<std::string> known = names_of(kChannels);
-  known.erase(known.begin());  // remove the whole map
+  known.erase(known.begin());  // drops the name of the whole map
   refuse_unknown_fields(field, known);
   const bool color = field.contains("RGB");
   field.require(!color || (!field.contains("R") && !field.contains("G") && !field.contains("B")),
@@ -119,8 +120,8 @@ NamingTables read_tables(std::string_view text, const std::string& context) {
   return tables;
 }
 
-// Returns a convention for the names of inputs, such as coat_weight, which no other convention knows. Names
-// of one word also occur in names of objects, and are left out.
+// Returns a convention for the names of inputs, such as coat_weight, that no other convention has. Leaves out
+// names of one word, because they also occur in names of objects.
 Habit surface_habit(const std::vector<Habit>& others) {
   std::set<std::string> known;
   for (const Habit& habit : others)

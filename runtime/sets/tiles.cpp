@@ -16,7 +16,7 @@ namespace {
 constexpr int kFirstUdim = 1001;
 constexpr int kLastUdim = 1999;
 constexpr int kUdimColumns = 10;
-// This is the only power of two among UDIMs. It is treated as a resolution if no other tile exists.
+// 1024 is the only power of two that is also a UDIM. It is treated as a resolution if no other tile exists.
 constexpr int kAmbiguousUdim = 1024;
 constexpr std::size_t kMostDigits = 9;
 
@@ -49,7 +49,7 @@ std::optional<Place> printf_place(std::string_view text, std::size_t begin) {
   if (end >= text.size() || text[end] != 'd') return std::nullopt;
   const std::string_view width = text.substr(begin + 1, end - begin - 1);
   if (width.empty()) return Place{begin, end + 1, TileStyle::kFrame, 1};
-  // Refuse a width without a leading zero, because printf would pad with spaces.
+  // Refuse a width without a leading zero, because printf would fill with spaces.
   if (width.front() != '0' || width.size() != 2 || width.back() == '0') return std::nullopt;
   return Place{begin, end + 1, TileStyle::kFrame, width.back() - '0'};
 }
@@ -97,7 +97,7 @@ struct Candidate {
   std::string name;
   TilePattern pattern;
   int number = 0;
-  bool ends_name = false;  // only the extension follows
+  bool ends_name = false;  // only the extension follows the number
 };
 
 // Finds the last number of `name` that may be a UDIM.
@@ -120,7 +120,7 @@ std::optional<Candidate> find_candidate(const std::string& name) {
       const Place place{pieces[i - 1].begin, pieces[i].end, TileStyle::kUvTile, 0};
       Candidate candidate{name, pattern_of(name, place), *uv, last};
       candidate.pattern.token = "<UVTILE>";
-      // Other spellings are refused, because the pattern could not reproduce a name in capitals.
+      // Refuse other spellings, because the pattern could not produce a name in capitals.
       if (tile_name(candidate.pattern, *uv) == name) return candidate;
     }
   }
@@ -170,7 +170,7 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
     number = digits_value(middle);
     if (pattern.style == TileStyle::kUdim && number && !is_udim(*number)) return std::nullopt;
   }
-  // A different spelling (01001, U1_v1) is a different file.
+  // A number in a different spelling (01001, U1_v1) belongs to a different file.
   if (!number || number_in_style(pattern, *number) != middle) return std::nullopt;
   return number;
 }

@@ -20,7 +20,7 @@ enum class TileStyle {
 // A TilePattern is a file name with one placeholder for a number.
 struct TilePattern {
   std::string before;  // the text before the number
-  std::string token;   // the placeholder as it was written: `<UDIM>`, `####`
+  std::string token;   // the placeholder as the user wrote it: `<UDIM>`, `####`
   std::string after;
   TileStyle style = TileStyle::kUdim;
   int digit_count = 0;  // least number of digits of a frame, padded with zeros
@@ -58,11 +58,11 @@ struct TileGroup {
   std::vector<int> numbers;            // numbers of the tiles, ascending; empty for a single file
 };
 
-// Groups the UDIM and u1_v1 tiles among the file names of one folder. Other names stay single. Frames stay
-// single, too, because only a pattern distinguishes them from numbered maps. A UDIM is the last number from
-// 1001 to 1999 between separators or the ends of a name. A number that no other file completes to a group
-// counts only if it is 1001 or ends the name, so castle_1905_rough.png is not a tile. A single 1024 is a
-// resolution. Groups are sorted by name, by bytes.
+// Groups the UDIM and u1_v1 tiles among the file names of one folder. Every other name is a group of one
+// file. Frames are not grouped, because nothing distinguishes them from numbered maps. A UDIM is the last
+// number from 1001 to 1999 between separators, or at one end of the name. If only one file has such a number,
+// it is a tile only if the number is 1001 or ends the name. So castle_1905_rough.png is not a tile. If 1024
+// is the only number, it is a resolution. Groups are sorted by name, byte by byte.
 std::vector<TileGroup> group_tiles(std::span<const std::string> names);
 
 }  // namespace remap

@@ -45,7 +45,7 @@ ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
   return info;
 }
 
-// Pads the terms to rows of one length. Returns the length of the longest row.
+// Fills the terms with zeros to rows of the same length. Returns this length.
 std::size_t pad(const FactorTerms& factor, FormPass::Terms& rows) {
   std::size_t longest = 0;
   for (std::size_t j = 0; j < factor.size(); ++j) {
@@ -113,7 +113,8 @@ class BrdfStage final : public Stage {
     return true;
   }
 
-  // Compares rows that are longer than a block and reach beyond the domain, grey and RGB.
+  // Compares the kernels with the baseline, on grey and RGB rows that are longer than a block and reach
+  // beyond the domain.
   bool agrees_with_baseline() const {
     constexpr std::size_t kCount = 301;
     using Row = std::array<float, kCount>;

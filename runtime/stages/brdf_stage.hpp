@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Uses `data` unchanged. Throws kNumeric for a domain that is empty or negative.
+// Makes a converter from `data`. Throws kNumeric if the domain is empty or negative.
 std::unique_ptr<Converter> make_converter(const ConverterData& data,
                                           InstructionSet set = best_instruction_set());
 

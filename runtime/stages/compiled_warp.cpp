@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-// A NodePosition lies between two neighbours of `count` evenly spaced nodes.
+// A NodePosition is a position between two neighbours of `count` evenly spaced nodes.
 struct NodePosition {
   std::size_t first = 0;
   double fraction = 0.0;
@@ -20,7 +20,7 @@ NodePosition position_of(double place, std::size_t count) noexcept {
   return {first, clamped - static_cast<double>(first)};
 }
 
-// Returns a value from 0 at the least alpha to 1 at the largest alpha.
+// Returns the position of an alpha between the least alpha (0) and the largest alpha (1).
 double width_share(const AppearanceCoordinates& space, float alpha) noexcept {
   const double least = static_cast<double>(space.least_alpha);
   const double clamped = static_cast<double>(std::clamp(alpha, space.least_alpha, space.largest_alpha));

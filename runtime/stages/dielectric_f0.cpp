@@ -31,7 +31,7 @@ code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& mater
 
 namespace {
 
-// Returns the root mean square of the projection's residuals.
+// Returns the root mean square of the residuals after the projection.
 double mean_residual(const SpecularWorkflow& specular, MetallicWorkflow metallic,
                      std::span<const SpecularMaterial> materials, double f0) {
   metallic.dielectric_f0 = f0;
@@ -49,7 +49,7 @@ double mean_residual(const SpecularWorkflow& specular, MetallicWorkflow metallic
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-// Returns the argument that minimises a unimodal function, by golden sections (Kiefer 1953).
+// Returns the argument with the smallest value of a unimodal function, by golden sections (Kiefer 1953).
 template <typename Function>
 double least_argument(const Function& function, double low, double high) {
   constexpr double kGolden = 0.6180339887498949;

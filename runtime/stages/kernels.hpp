@@ -1,5 +1,5 @@
-// This file declares the loops over texels, which are compiled once for each instruction set. Every set gives
-// the same bits as the generated headers.
+// This file declares the loops over texels, which are compiled once for each instruction set. Every
+// instruction set gives the same bits as the generated headers.
 #pragma once
 
 #include <array>
@@ -25,18 +25,18 @@ struct FormPass {
   using Terms = std::array<std::array<float, kMostPowersOfAlpha>, kMostPowersOfT>;
   RoughnessEncoding source = RoughnessEncoding::kAlpha;
   RoughnessEncoding target = RoughnessEncoding::kAlpha;
-  float width_min = 0.0f, width_max = 0.0f;    // the domain, in the source's own width parameter
-  float width_from = 0.0f, width_to = 0.0f;    // ends for clamped widths
-  float alpha_min = 0.0f, least_alpha = 0.0f;  // alpha_min: source in the domain; least_alpha: target
+  float width_min = 0.0f, width_max = 0.0f;    // the domain, in the width parameter of the source
+  float width_from = 0.0f, width_to = 0.0f;    // widths are clamped to this range
+  float alpha_min = 0.0f, least_alpha = 0.0f;  // least alpha of the source's domain, and of the target
   float specular_min = 0.0f, specular_max = 0.0f;
   float pole = 1.0f;
   float alpha_limit = 0.0f, specular_limit = 0.0f;  // infinite if there is no limit
   float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
-  std::size_t powers = 1, terms = 1;  // sizes of both factors, which are padded with zeros
+  std::size_t powers = 1, terms = 1;  // number of terms in both factors; the rest is zeros
   Terms alpha_terms{}, specular_terms{};
 };
 
-// A TexelRows holds rows of `count` texels. An output row may be exactly its input row.
+// A TexelRows holds rows of `count` texels. An output row may be the same memory as its input row.
 struct TexelRows {
   std::size_t count = 0;
   std::size_t channels = 1;  // 1 or 3
@@ -47,7 +47,8 @@ struct TexelRows {
   std::uint8_t* outside = nullptr;  // 1 for each texel out of domain, otherwise 0; may be null
 };
 
-// These are rows of the two workflows: diffuse, specular, width; and base color, metallic, width.
+// These are the rows of both workflows. SpecularRows has diffuse, specular and width, MetallicRows has base
+// color, metallic and width.
 template <typename Float>
 using SpecularRows = std::array<Float*, 7>;
 template <typename Float>
@@ -60,24 +61,25 @@ struct DiagnosisRows {
   float* issues = nullptr;  // sums of MetallicIssue, divided by 255
 };
 
-// Kernels take rows of any length. An output row may be exactly the input row of the same parameter.
+// Kernels take rows of any length. An output row may be the same memory as the input row of the same
+// parameter.
 struct Kernels {
   // Converts by a compact form. Returns the number of texels out of domain.
   std::size_t (*convert)(const FormPass& pass, const TexelRows& rows) noexcept;
 
-  // Convert from metallic to specular by equation (2), and back by the projection.
+  // Convert from metallic to specular by equation (2), and from specular to metallic by the projection.
   void (*to_specular)(const workflow_code::Conventions& use, std::size_t count,
                       const MetallicRows<const float>& in, const SpecularRows<float>& out) noexcept;
   void (*project)(const workflow_code::Conventions& use, float prior, std::size_t count,
                   const SpecularRows<const float>& in, const MetallicRows<float>& out) noexcept;
-  // Replaces base color and metallic in `result`. Of the metallic values whose pictures are within a step of
-  // 8 bits of the best, it takes the one closest to `wanted`, with the best base color for it. Texels whose
-  // `wanted` is NaN stay unchanged.
+  // Replaces base color and metallic in `result`. Several values of metallic give pictures that differ by
+  // less than a step of 8 bits from the best picture. Of these, it takes the value closest to `wanted`, and
+  // the best base color for this value. Texels whose `wanted` is NaN stay unchanged.
   void (*follow)(const workflow_code::Conventions& use, std::size_t count,
                  const SpecularRows<const float>& in, const float* wanted,
                  const MetallicRows<float>& result) noexcept;
-  // Writes residual, width and issues of each texel. If the material or the result has NaN, residual and
-  // width are NaN and there are no issues.
+  // Writes residual, uncertainty of metallic, and issues of each texel. If the material or the result has
+  // NaN, the first two are NaN and there are no issues.
   void (*diagnose)(const workflow_code::Conventions& use, std::size_t count,
                    const SpecularRows<const float>& in, const MetallicRows<const float>& result,
                    const DiagnosisRows& out) noexcept;

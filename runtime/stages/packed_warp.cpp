@@ -7,7 +7,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kLanes = 4;  // number of dimensions, padded
+constexpr std::size_t kLanes = 4;  // number of dimensions, filled with zeros
 
 PackedSeparable packed_terms(const AppearanceCoordinates& space, const SeparableTerms& terms) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);

@@ -12,12 +12,12 @@
 
 namespace remap {
 
-// This many texels pass through all stages before the next block. The rows that two stages share, 2 KB each,
-// then stay in the first-level cache.
+// This many texels pass through all stages before the next texels. A row of them has 4 KB, so the rows that
+// two stages share stay in the first-level cache.
 inline constexpr std::size_t kBlockTexels = 1024;
 
-// A Block knows where the rows of each parameter are. At first they are in the source. A stage reads rows and
-// replaces them by others. The last stage makes the rows of the target itself.
+// A Block knows where the rows of each parameter are. At first, they are the rows of the source. A stage
+// reads rows and replaces them by new rows. The last stage writes directly into the rows of the target.
 class Block {
  public:
   // `in` and `out` are the arguments of Converter::convert.
@@ -25,10 +25,10 @@ class Block {
 
   // Selects the block of `size` texels, kBlockTexels or less, from `start`.
   void begin(std::size_t start, std::size_t size);
-  // Returns true if the current stage is the last one. Its rows are then the rows of the target.
+  // Returns true if the current stage is the last one. It then writes into the rows of the target.
   bool is_last() const noexcept { return is_last_; }
   void set_last(bool is_last) noexcept { is_last_ = is_last; }
-  // Copies all remaining rows to the target. Grey is copied to all channels.
+  // Copies all rows that no stage has written to the target. Grey is copied to all channels.
   void finish();
 
   std::size_t size() const noexcept { return size_; }
@@ -40,8 +40,8 @@ class Block {
   // Returns three rows. Grey becomes three equal channels.
   std::array<const float*, 3> color(Parameter parameter) const noexcept;
 
-  // Returns rows for a new value of a parameter; row() and color() return them from now on. They may be
-  // exactly the rows of its old value, so a stage must ask for the old rows first.
+  // Returns rows for a new value of a parameter. From now on, row() and color() return them. They may be the
+  // rows of the old value, so a stage must ask for the old rows first.
   float* make(Parameter parameter) { return make_color(parameter, 1)[0]; }
   std::array<float*, 3> make_color(Parameter parameter, std::size_t channels = 3);
   // Returns a row for values that nobody reads.
@@ -51,7 +51,7 @@ class Block {
   using Row = std::array<float, kBlockTexels>;
   float* scratch(std::size_t parameter, std::size_t channel = 0);
 
-  // Lists the parameters that have rows. This saves time, because most converters have two.
+  // Lists the parameters that have rows, so that no loop visits all parameters. Most converters have two.
   struct Parameters {
     std::array<Parameter, kParameterCount> all{};
     std::size_t count = 0;
@@ -77,8 +77,9 @@ class Stage {
 
   // Returns true if texels can be outside the stage's domain.
   virtual bool has_domain() const noexcept { return false; }
-  // Replaces rows of the block. A stage with a domain returns the number of texels outside. It sets
-  // `outside`, if not null, to 1 for each of them and to 0 for each other. Many threads may call it.
+  // Replaces rows of the block. A stage with a domain returns the number of texels outside of it. If
+  // `outside` is not null, the stage sets it to 1 for each of these texels and to 0 for all others. Many
+  // threads may call this.
   virtual std::size_t run(Block& block, std::uint8_t* outside) const = 0;
   // Throws like Converter::self_test.
   virtual bool self_test() const { return true; }
@@ -91,7 +92,7 @@ class Stage {
 // it.
 std::shared_ptr<const Stage> make_stage(std::function<void(Block& block)> run);
 
-// Runs all stages over the block. Counts and flags the texels that are outside for any of them.
+// Runs all stages over the block. Counts and flags the texels that are outside of any domain.
 std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Block& block,
                        std::uint8_t* outside);
 // Returns true if all stages pass their tests.

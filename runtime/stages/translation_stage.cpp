@@ -11,7 +11,7 @@ namespace {
 
 using materials::OpenPbrSurface;
 
-// No model has more channels.
+// No model has more channels than this.
 constexpr std::size_t kMostChannels = 128;
 using Values = std::array<float, kMostChannels>;
 
@@ -43,7 +43,8 @@ void from_hub(const OpenPbrSurface& hub, float* values) {
   write_values(kFromHub(hub), values);
 }
 
-// A SurfaceLink joins a model to OpenPBR, both ways. Principled has no way back.
+// A SurfaceLink converts between a model and OpenPBR. `from_hub` is null for Principled, which can only be a
+// source.
 struct SurfaceLink {
   OpenPbrSurface (*to_hub)(const float*);
   void (*from_hub)(const OpenPbrSurface&, float*);
@@ -114,9 +115,9 @@ void translate(const SurfaceTranslation& translation, const Values& defaults, Bl
   }
 }
 
-// Differences below this are rounding, which no picture shows.
+// Smaller differences come from rounding, and no picture shows them.
 constexpr float kSame = 1e-6f;
-// This many materials find every dependence that random values can find.
+// More random materials do not find more dependences.
 constexpr std::size_t kProbes = 32;
 using Probes = std::array<Values, kProbes>;
 
@@ -194,8 +195,8 @@ class Probing {
     return is_all(at, target.channels, [](float value) { return std::abs(value) <= kSame; });
   }
 
-  // Returns true if the weight of the input's lobe is 0 in every material, or if the input is such a weight
-  // and the color of the lobe is black unless it is set.
+  // Returns true if the input has no effect. Then the weight of its lobe is 0 in every material. Or it is
+  // itself the weight of a lobe, is 0 in every material, and the color of the lobe is black by default.
   bool is_hidden(const SurfaceInput& target) const {
     const auto inputs = inputs_of(translation_.target);
     if (target.weight) return is_zero(inputs[*target.weight]);
@@ -220,7 +221,7 @@ class Probing {
     return true;
   }
 
-  // Returns true if a result changes when the source has another value, or if the value is the default.
+  // Returns true if a result changes with the value of this input, or if the value is the default.
   bool is_seen(const Given& source) const {
     Probes others = materials_;
     for (std::size_t i = 0; i < kProbes; ++i)

@@ -1,5 +1,6 @@
-// This file reads and writes warp fits as JSON. Entries of the table are base64 (RFC 4648): 150 KB for 128^2
-// nodes, while numbers would need 400 KB. Larger numbers than a byte are little-endian, floats as their bits.
+// This file reads and writes warp fits as JSON. Entries of the table are base64 (RFC 4648), which needs 150
+// KB for 128^2 nodes instead of 400 KB for numbers. The bytes of a number have little-endian order. Floats
+// are written as their bits.
 #include "stages/warp_json.hpp"
 
 #include "converter/converter_fields.hpp"
@@ -24,7 +25,7 @@ std::vector<std::uint8_t> read_base64(const Field& field) {
   return *std::move(bytes);
 }
 
-// Writes the lowest byte of each number first.
+// Writes the bytes of each number, the lowest byte first.
 template <typename Number>
 std::vector<std::uint8_t> bytes_of(const std::vector<Number>& numbers) {
   std::vector<std::uint8_t> bytes;

@@ -12,7 +12,7 @@ class Field;
 // Returns the text of the file, which ends with a newline. Throws the errors of require_valid().
 std::string fit_to_json(const WarpMapFit& fit);
 
-// Reads the fit whose file has this root. Throws kInput.
+// Reads the fit with this root of its file. Throws kInput.
 WarpMapFit read_warp_fit(const Field& root);
 
 }  // namespace remap

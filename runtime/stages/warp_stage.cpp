@@ -35,7 +35,7 @@ class WarpStage final : public Stage {
                                                           specular[1],
                                                           specular[2],
                                                           block.row(Parameter::kRoughness)};
-    if (outside != nullptr) flag_outside(block.size(), in, outside);  // must come before rows are overwritten
+    if (outside != nullptr) flag_outside(block.size(), in, outside);  // before rows are overwritten
     const auto new_diffuse = block.make_color(Parameter::kDiffuse),
                new_specular = block.make_color(Parameter::kSpecular);
     return kernel_(warp_, block.size(), in,

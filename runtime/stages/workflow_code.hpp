@@ -1,6 +1,6 @@
-// This file holds the formulas of workflow conversions. They are the same text as in generated headers
-// (compiler/emit/workflow_code.cpp), so that both give the same bits. The formulas of the diagnosis exist
-// only in this program.
+// This file holds the formulas of workflow conversions. Generated headers have the same text
+// (compiler/emit/workflow_code.cpp), so that both give the same bits. Only the formulas of the diagnosis are
+// not in headers.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ namespace remap {
 // dielectric F0 out of range.
 void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& metallic,
                    const std::string& context);
-// Throws the same error for a prior out of range.
+// Throws kInput, beginning with `context`, for a prior out of range.
 void require_prior(double prior, const std::string& context);
 
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width);

@@ -9,8 +9,8 @@ namespace {
 constexpr auto kPlain = DiffuseConvention::kPlain, kScaled = DiffuseConvention::kScaled;
 constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = RoughnessEncoding::kGlossiness;
 
-// All of these have GGX lobes of alpha = roughness^2. The BRDF is the renderer's own lobe if a converter was
-// measured with it, otherwise Mitsuba's GGX.
+// All of these have GGX lobes of alpha = roughness^2. If a converter was measured with the renderer's own
+// lobe, this lobe is the BRDF. Otherwise, it is Mitsuba's GGX.
 std::vector<WorkflowModel> make_models() {
   return {
       {MetallicWorkflow{"gltf", kCommonDielectricF0, kScaled, kRoughness}, "mitsuba/ggx", true,
@@ -133,7 +133,7 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   WorkflowModel model;
   model.brdf = brdf;
   model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;
-  // Lobes of an exponent are added to diffuse without reducing it (OpenGL 1.0, section 2.13).
+  // These models add the lobe to diffuse, and do not reduce diffuse (OpenGL 1.0, section 2.13).
   model.conventions_known = brdf.starts_with("legacy/") || brdf.starts_with("mujoco/");
   if (kind == WorkflowKind::kSpecular)
     model.end = SpecularWorkflow{brdf, kPlain, width};
@@ -155,7 +155,7 @@ bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const s
   const WorkflowModel written =
       known != nullptr ? *known : workflow_over(name, WorkflowKind::kSpecular, kRoughness);
   WorkflowEnd held = written.end;
-  // An open convention is taken from the other end.
+  // If the model leaves the convention open, use the convention of the other end.
   if (known != nullptr && !known->conventions_known)
     std::visit([&](auto& workflow) { workflow.diffuse = diffuse_of(end); }, held);
   return written.brdf == brdf && is_same_material(held, end);

@@ -51,10 +51,10 @@ void scale_diffuse(DiffuseConvention to, Block& block) {
                                                                      : diffuse[c][i] * left[i];
 }
 
-// KeepDielectrics runs the BRDF's stages between two metallic workflows. The dielectric of one end becomes
-// the dielectric of the other end, whose F0 is fixed. So only the metal's share of specular follows the BRDF.
-// Otherwise a dielectric would become slightly metallic if the BRDF changes its F0. If the law of specular is
-// affine, metallic stays unchanged.
+// KeepDielectrics runs the stages of a BRDF between two metallic workflows. A dielectric becomes a dielectric
+// of the target, whose F0 is fixed. So only the specular of metals follows the BRDF. Otherwise, a BRDF that
+// changes the F0 of a dielectric would make it slightly metallic. If the formula for specular is affine,
+// metallic stays unchanged.
 class KeepDielectrics final : public Stage {
  public:
   KeepDielectrics(const StageList& brdf, double source_f0, double target_f0)
@@ -144,7 +144,7 @@ bool encodes_alpha(RoughnessEncoding width) {
 }
 
 // Returns the conventions between a metallic workflow and the specular workflow inside the converter. Both
-// use the width of the block.
+// use the width parameter of the block.
 workflow_code::Conventions conventions_between(MetallicWorkflow metallic, DiffuseConvention diffuse,
                                                RoughnessEncoding width, bool to_metallic,
                                                const std::string& context) {
@@ -154,8 +154,9 @@ workflow_code::Conventions conventions_between(MetallicWorkflow metallic, Diffus
   return conventions_of(specular, metallic, to_metallic);
 }
 
-// Returns the diffuse convention between the stages. It is the convention of the specular end, so that a
-// conversion without BRDF equals a header bit for bit. It is plain if specular changes in between.
+// Returns the diffuse convention between the stages. Without a BRDF, it is the convention of the specular
+// end, so that results equal a generated header's bit for bit. With a BRDF, it is plain, because specular
+// changes in between.
 DiffuseConvention diffuse_between(const WorkflowStages& stages) {
   const bool is_one_way = kind_of(stages.source) != kind_of(stages.target);
   if (stages.brdf != nullptr || !is_one_way) return DiffuseConvention::kPlain;

@@ -12,8 +12,8 @@ struct XXH3_state_s;
 
 namespace remap {
 
-// A ContentHash uses XXH3, 128 bits (Collet 2012 to 2023). It is as fast as memory, and not safe against
-// deliberate collisions.
+// A ContentHash uses XXH3, 128 bits (Collet 2012 to 2023). It is as fast as memory, but somebody could make
+// two files with the same hash on purpose.
 class ContentHash {
  public:
   ContentHash();

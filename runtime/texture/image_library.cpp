@@ -7,7 +7,7 @@ namespace remap {
 namespace {
 
 std::mutex limits_mutex;
-std::optional<ImageLimits> wanted_limits;  // none once the library knows them
+std::optional<ImageLimits> wanted_limits;  // unset once the library has the limits
 
 }  // namespace
 

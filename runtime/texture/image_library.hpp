@@ -1,6 +1,6 @@
-// This file reads and writes images in files through an interface. The programs implement it by a module, the
-// only caller of OpenImageIO. A package for another language uses that language's image functions
-// (packages/).
+// This file reads and writes images in files through an interface. The programs implement the interface in a
+// module, the only code that calls OpenImageIO. A package for another language implements it with image
+// functions of that language (packages/).
 #pragma once
 
 #include <cstddef>
@@ -18,54 +18,55 @@
 
 namespace remap {
 
-// A StoredImage is one part of an image file, opened for reading; most files have one part with one level.
-// Values are not multiplied or divided by alpha. Every failure, even for a truncated file, is an Error of
-// kind kInput with the file's name.
+// A StoredImage is one part of an image file, opened for reading. Most files have one part with one level.
+// Values are not multiplied or divided by alpha. Every failure is an Error of kind kInput with the file's
+// name, even for a truncated file.
 class StoredImage {
  public:
   virtual ~StoredImage() = default;
-  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the level
+  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the selected level
   virtual std::string part_name() const = 0;               // empty for a part without a name
-  virtual int part_count() const noexcept = 0;             // parts of the file; only part 0 knows
-  virtual int level_count() const noexcept = 0;            // mip levels of the part
+  virtual int part_count() const noexcept = 0;   // number of parts in the file; call it for part 0 only
+  virtual int level_count() const noexcept = 0;  // mip levels of the part
   // Selects the mip level for layout() and read_rows(). The initial level 0 is the full picture.
   virtual void select_level(int level) = 0;
   // Sets the size of new images that follow this one. Throws kInput for a picture with mip levels or with a
   // data window other than its display window.
   virtual void set_followed_size(int width, int height) = 0;
-  // Reads rows [first_row, first_row + row_count), counted from 0 at the top, into `texels`, which holds
-  // row_count * layout().row_bytes(). For tiled files the rows must begin and end at multiples of the tile
-  // height or at the end of the image.
+  // Reads rows [first_row, first_row + row_count), counted from 0 at the top, into `texels`, which has room
+  // for row_count * layout().row_bytes(). In tiled files, the rows must begin at a multiple of the tile
+  // height, and end at such a multiple or at the end of the image.
   virtual void read_rows(int first_row, int row_count, std::byte* texels) = 0;
   // Returns the metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
   virtual std::optional<std::string> noted_metadata(const std::string& name) const = 0;
 };
 
-// A NewPart is one part of a new image. It follows a part of another image in everything except `changes`.
+// A NewPart is one part of a new image. It equals a part of another image in everything except `changes`.
 struct NewPart {
-  const StoredImage* model = nullptr;  // used by ImageLibrary::create() only
+  const StoredImage* model = nullptr;  // only ImageLibrary::create() uses it
   ImageChanges changes;
 };
 
-// A NewImage is being written to a temporary name in the folder of its path. Every failure, even a full disk,
-// is an Error of kind kOutput with the path. The destructor removes a file that was not committed.
+// A NewImage is being written to a temporary name in the folder of its path. Every failure is an Error of
+// kind kOutput with the path, even if the disk is full. The destructor removes a file that was not committed.
 class NewImage {
  public:
   virtual ~NewImage() = default;
   virtual const std::filesystem::path& path() const noexcept = 0;
-  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the plane
+  virtual const ImageLayout& layout() const noexcept = 0;  // layout of the selected plane
   virtual int level_count(int part) const noexcept = 0;
   virtual ImageLayout layout(int part) const = 0;  // layout of level 0
-  // Selects the next plane: all levels of a part in order, the largest first, then the next part. The
-  // previous plane must be complete. The initial plane is level 0 of part 0.
+  // Selects the next plane. The planes are all levels of a part, the largest first, and then all levels of
+  // the next part. The previous plane must be complete. At first, level 0 of part 0 is selected.
   virtual void select(int part, int level) = 0;
   // Writes the next rows from the top, with the rules of StoredImage::read_rows.
   virtual void write_rows(int first_row, int row_count, const std::byte* texels) = 0;
-  // Ends and checks the file. Afterwards the system has accepted every byte.
+  // Ends and checks the file. After this, the system has accepted every byte.
   virtual void finish() = 0;
   // Returns the path of the finished file, which still has its temporary name.
   virtual const std::filesystem::path& finished_file() const noexcept = 0;
-  // Returns the content of the finished file for reading. A host with an open file need not open it again.
+  // Returns the content of the finished file for reading. A host that still has the file open does not open
+  // it again.
   virtual std::shared_ptr<const InputFile> content() const {
     return std::make_shared<const InputFile>(finished_file());
   }
@@ -84,7 +85,7 @@ struct Picture {
 };
 
 struct ImageLimits {
-  int threads = 0;                 // at least 1, in this process; 0: automatic
+  int threads = 0;                 // at least 1: threads of this process; 0: automatic
   std::uint64_t memory_bytes = 0;  // limit for one image's texels; 0: automatic
 };
 
@@ -95,40 +96,41 @@ class ImageLibrary {
   virtual void set_limits(const ImageLimits& limits) const = 0;
   // Opens a part of `path`, which must be a regular file.
   virtual std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const = 0;
-  // Opens a part of a file that is open. A host that only knows names opens the file by its name.
+  // Opens a part of a file that is already open. A host that can open files only by name opens it by its
+  // name.
   virtual std::unique_ptr<StoredImage> open_part(const std::shared_ptr<const InputFile>& file,
                                                  int part) const {
     return open(file->path(), part);
   }
-  // Creates a new image that follows the models of `parts`. The models decide pixel types, compression,
-  // tiling, channel names, metadata, windows and mip levels, if the format (chosen by the extension of
-  // `path`) can hold them.
+  // Creates a new image from the models of `parts`. It has their pixel types, compression, tiling, channel
+  // names, metadata, windows and mip levels, if its format can hold them. The extension of `path` chooses the
+  // format.
   virtual std::unique_ptr<NewImage> create(const std::filesystem::path& path,
                                            const std::vector<NewPart>& parts) const = 0;
 
   // Reads every channel of the first part of `path`, which must be a regular file. Throws kInput.
   virtual Picture read_picture(const std::filesystem::path& path) const = 0;
-  // Writes a picture: float32 (zip) with `attributes` as metadata, or 8 bits. The file appears complete or
-  // not at all. Throws kOutput.
+  // Writes a picture as float32 (zip) with `attributes` as metadata, or with 8 bits. The file appears
+  // complete or not at all. Throws kOutput.
   virtual void write_exr(const std::filesystem::path& path, const Picture& picture,
                          const std::map<std::string, std::string>& attributes) const = 0;
   virtual void write_png(const std::filesystem::path& path, const Picture& picture) const = 0;
-  // Returns the bytes of such a PNG file. Throws kOutput.
+  // Returns the bytes of a PNG file with 8 bits. Throws kOutput.
   virtual std::string png_bytes(const Picture& picture) const = 0;
   // Returns the codec for images that assets embed or name: PNG, JPEG, WebP, BMP, TIFF and Targa.
   virtual const ImageCodec& codec() const = 0;
 };
 
-// Loads the library for image_library(); each host defines it. The programs load a module from a folder
-// beside theirs, because its 260 shared libraries take longer to load than most commands run. Throws kInput,
-// with the reason and the fix, if the module is missing or cannot be loaded.
+// Loads the library for image_library(). Each host defines this function. The programs load a module from a
+// folder beside them, because its 260 shared libraries take longer to load than most commands take to run.
+// Throws kInput, with the reason and the fix, if the module is missing or cannot be loaded.
 const ImageLibrary& load_image_library();
 
-// Returns the library of images, which the first call loads. After a failure a later call tries again. Many
-// threads may call it.
+// Returns the image library, which the first call loads. After a failure, a later call tries again. Many
+// threads may call this.
 const ImageLibrary& image_library();
 
-// Sets limits for images that are opened later. Loads nothing.
+// Sets limits for images that are opened later. Does not load the library.
 void set_image_limits(const ImageLimits& limits);
 
 }  // namespace remap

@@ -10,8 +10,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// REMAP_IMAGE_MODULE is the path from the folder of the programs to the module. It is the same in the build
-// tree and after installation.
+// REMAP_IMAGE_MODULE is the path of the module, relative to the folder of the programs. It is the same in the
+// build tree and after installation.
 fs::path module_file() { return (program_file().parent_path() / REMAP_IMAGE_MODULE).lexically_normal(); }
 
 }  // namespace
@@ -23,7 +23,7 @@ const ImageLibrary& load_image_library() {
   };
   if (std::error_code ignored; !fs::exists(file, ignored))
     fail("file not found; it reads and writes images (install it with the programs, by cmake --install)");
-  // The module is never unloaded, because the program may keep its objects until the end.
+  // The module is never unloaded, because the program may keep objects of the module until the end.
   void* const module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* const reason = ::dlerror();

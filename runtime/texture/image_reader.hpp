@@ -35,10 +35,10 @@ class ImageReader {
   }
   const StoredImage& stored() const noexcept { return *image_; }
 
-  // Makes layout() and read_rows() return the picture at this size, as floats. An image that follows this one
-  // gets the size, too. `width` and `height` are at least the size in the file; `transfers` has the curve of
-  // each channel. Throws kInput for a picture with mip levels or with a data window other than its display
-  // window.
+  // Makes layout() and read_rows() return the picture at this size, as floats. A new image that is made from
+  // this one has the same size. `width` and `height` are at least the size in the file. `transfers` has the
+  // curve of each channel. Throws kInput for a picture with mip levels, or with a data window that differs
+  // from its display window.
   void resample(int width, int height, const std::vector<Transfer>& transfers);
   bool is_resampled() const noexcept { return resampled_ != nullptr; }
 

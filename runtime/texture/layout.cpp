@@ -15,7 +15,7 @@ constexpr auto kRoughness = RoughnessEncoding::kRoughness, kGlossiness = Roughne
 constexpr auto kEightBits = PixelType::kUint8;
 constexpr auto kGreenUp = NormalGreen::kUp;
 
-constexpr std::size_t kPlainLayouts = 5;  // they come first
+constexpr std::size_t kPlainLayouts = 5;  // layouts without an engine, which come first
 constexpr std::array<NamedLayout, 14> kLayouts = {{
     {"as-inputs", "", "", "", {}, {}},
     {"separate", "", "", "", {}, {}},
@@ -39,7 +39,7 @@ constexpr std::array<NamedLayout, 14> kLayouts = {{
     {"marmoset", "marmoset", "", "png", kEightBits, {}},
 }};
 
-// Returns the content that a word of a layout means.
+// Returns the content that a word in the text of a layout means.
 LayoutContent content_of(const std::string& option, const std::string& file, const std::string& word) {
   static const std::vector<std::pair<std::string, LayoutContent>> kWords = {
       {"roughness", LayoutParameter{Parameter::kRoughness, kRoughness}},

@@ -20,25 +20,25 @@ struct LayoutParameter {
   Parameter parameter = Parameter::kRoughness;
   std::optional<RoughnessEncoding> width;  // for kRoughness: roughness or glossiness
 };
-// A LayoutCarried is a parameter that is never converted (`occlusion`).
+// A LayoutCarried is a parameter that is passed through and never converted (`occlusion`).
 struct LayoutCarried {
   std::string name;
-  float otherwise = 1.0f;  // stored if the set lacks the parameter
+  float otherwise = 1.0f;  // stored value if the set lacks the parameter
 };
-// A LayoutContent is roughness, metallic, ..., occlusion, or a stored value from 0 to 1.
+// A LayoutContent is roughness, metallic and so on, occlusion, or a stored value from 0 to 1.
 using LayoutContent = std::variant<LayoutParameter, LayoutCarried, float>;
 
 struct LayoutFile {
-  std::string name;                    // without extension; `*` is the set's name, otherwise put in front
+  std::string name;                    // without extension; the set's name replaces `*`, or is put in front
   std::vector<LayoutContent> content;  // content of 1, 3 or 4 channels
 };
 
 struct Layout {
   std::string name;
-  bool keeps_names = false;       // each map with a converted channel keeps its name
-  std::vector<LayoutFile> files;  // other results have one file each, named after the parameter
+  bool keeps_names = false;       // every map with a converted channel keeps its name
+  std::vector<LayoutFile> files;  // every other result is a separate file, named after its parameter
 
-  // Returns the encoding of the roughness in its files, or nothing if roughness has a separate file.
+  // Returns the encoding of roughness in these files, or nothing if roughness has a separate file.
   std::optional<RoughnessEncoding> width() const;
   // Returns the file with `parameter`, or null.
   const LayoutFile* file_with(Parameter parameter) const;
@@ -52,15 +52,15 @@ Layout as_inputs();
 // Returns the layout with one file each for roughness, colors and carried parameters.
 Layout separate();
 
-// A NamedLayout is a layout with a name. If it belongs to an engine or tool, it has the maps that the tool
-// reads by its documentation (docs/presets.md has the links).
+// A NamedLayout is a layout with a name. The layout of an engine or tool has the maps that its documentation
+// describes (docs/presets.md has the links).
 struct NamedLayout {
   std::string_view name;
-  std::string_view words;   // words of `--to` that mean it; `--to gltf` means only the material
-  std::string_view files;   // text for layout_from(); empty: separate
-  std::string_view format;  // extension; empty for as-inputs and for layouts without an engine
+  std::string_view words;   // words of `--to` for this layout; `--to gltf` means only the material
+  std::string_view files;   // text for layout_from(); if empty, as separate()
+  std::string_view format;  // extension of the files; empty for as-inputs and layouts without an engine
   std::optional<PixelType> type;
-  std::optional<NormalGreen> normals;  // its convention for green of normal maps, if documented
+  std::optional<NormalGreen> normals;  // direction of green in normal maps, if documented
 };
 // Returns `as-inputs`, `separate`, `orm`, `arm`, `specgloss`, and engines: `gltf`, `unity`, `unreal`, ...
 std::span<const NamedLayout> named_layouts();
@@ -69,10 +69,11 @@ std::span<const NamedLayout> engine_layouts();
 const NamedLayout* engine_layout(std::string_view name);
 const NamedLayout* engine_layout_of(std::string_view word);
 
-// Reads a layout by its name, or in words: `MaskMap=metallic,occlusion,0,smoothness; Albedo=base_color` lists
-// files and the content of each channel. The content is roughness, glossiness or smoothness, metallic,
-// occlusion, specular, diffuse or base_color (three channels each), or a number from 0 to 1. Throws kUsage,
-// with `option`, for unknown words and for other numbers of channels than 1, 3 and 4.
+// Reads a layout from its name, or from text such as `MaskMap=metallic,occlusion,0,smoothness;
+// Albedo=base_color`, which lists files and the content of their channels. Content is roughness, glossiness,
+// smoothness, metallic, occlusion, specular, diffuse or base_color (three channels for a color), or a number
+// from 0 to 1. Throws kUsage, with `option`, for unknown words and for a file that does not have 1, 3 or 4
+// channels.
 Layout layout_from(const std::string& option, const std::string& text);
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// This file samples the maps of a material before the conversion, to find conventions that no file states.
+// This file samples the maps of a material before the conversion, to detect conventions that no file states.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@
 
 namespace remap {
 
-// A MaterialSample holds covered texels of a grid over the whole picture. Each parameter has one or three
-// rows of linear values, with factors applied. The roughness is in the encoding of the maps.
+// A MaterialSample holds texels of a grid over the whole picture, without transparent ones. Each parameter
+// has one or three rows of linear values, with factors applied. Roughness has the encoding of the maps.
 struct MaterialSample {
   std::size_t texel_count = 0;
   std::map<Parameter, std::vector<std::vector<float>>> rows;
@@ -21,8 +21,9 @@ struct MaterialSample {
 // Samples about 4000 texels in 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);
 
-// Estimates the F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic
-// workflow. `width` is the encoding of the sampled roughness. Returns nothing if no texel allows an estimate.
+// Estimates the F0 of the dielectrics after `stages.brdf`. `stages` lead from a specular to a metallic
+// workflow. `width` is the encoding of roughness in the sample. Returns nothing if no texel allows an
+// estimate.
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessEncoding width);
 

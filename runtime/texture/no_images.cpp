@@ -1,4 +1,4 @@
-// This file replaces the images in a program that is built without them (REMAP_BUILD_IMAGES).
+// This file replaces the image library in a program that is built without it (REMAP_BUILD_IMAGES).
 #include "remap/error.hpp"
 #include "texture/image_library.hpp"
 

@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// These words mean green up and green down.
+// The first word of each pair means green up, the second green down.
 constexpr std::array<std::array<std::string_view, 2>, 7> kGreenWords = {{{"OpenGL", "DirectX"},
                                                                          {"opengl", "directx"},
                                                                          {"Opengl", "Directx"},
@@ -24,7 +24,8 @@ constexpr std::array<std::array<std::string_view, 2>, 7> kGreenWords = {{{"OpenG
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// Returns true if the `size` letters at `at` are a word: x_gl_4k and NormalGL, but not x_glass or angl.
+// Returns true if the `size` letters at `at` are a word, as in x_gl_4k and NormalGL. Returns false in x_glass
+// and angl.
 bool is_green_word(std::string_view name, std::size_t at, std::size_t size) {
   const std::string_view before = name.substr(0, at), after = name.substr(at + size);
   if (!after.empty() && is_letter(after.front())) return false;

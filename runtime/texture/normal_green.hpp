@@ -1,5 +1,5 @@
-// This file handles green of normal maps. It reads from a map's name whether green points up (OpenGL) or down
-// (DirectX), and makes copies with inverted green.
+// This file handles the green channel of normal maps. It reads from a map's name whether green points up
+// (OpenGL) or down (DirectX), and makes copies with inverted green.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace remap {
 
 enum class NormalGreen { kUp, kDown };
 
-// A StatedGreen is the direction in the name of a normal map, and the name of the same map with inverted
-// green: `wood_nor_gl_4k.png` and `wood_nor_dx_4k.png`.
+// A StatedGreen is the direction that the name of a normal map states, and the name of the same map with
+// inverted green. For example, `wood_nor_gl_4k.png` becomes `wood_nor_dx_4k.png`.
 struct StatedGreen {
   NormalGreen green = NormalGreen::kUp;
   std::string turned_name;
@@ -22,9 +22,9 @@ struct StatedGreen {
 // Returns nothing if the name has none of the words OpenGL, DirectX, GL and DX.
 std::optional<StatedGreen> stated_green(const std::string& name);
 
-// Returns a finished copy with green replaced by 1 - green, or by -green if values have a sign. It does not
-// yet have its name `to`. Everything else is copied from `from`. Throws kInput if `from` cannot be read or
-// has no green, and kOutput if the copy cannot be written.
+// Returns a finished copy with green replaced by 1 - green, or by -green if values have a sign. The copy does
+// not have its name `to` yet. Everything else is copied from `from`. Throws kInput if `from` cannot be read
+// or has no green, and kOutput if the copy cannot be written.
 std::unique_ptr<NewImage> turned_copy(const std::shared_ptr<const InputFile>& from,
                                       const std::filesystem::path& to);
 

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// Interpolates. A weight of 0 must ignore even NaN and infinity of the second texel.
+// Interpolates. If the weight is 0, the second value must have no effect, even if it is NaN or infinity.
 float between(float a, float b, float weight) { return weight == 0.0f ? a : a + weight * (b - a); }
 
 }  // namespace
@@ -40,7 +40,7 @@ ResampledRows::Place ResampledRows::place_of(int position, int count, int stored
           static_cast<float>(held - first)};
 }
 
-// Holds the rows [first, last]. It keeps rows that were read before, and reads the others.
+// Makes `held_` hold the rows [first, last]. Keeps rows that it has already, and reads the others.
 void ResampledRows::hold(int first, int last, const ReadStored& read_stored) {
   const int unit = std::max(stored_.tile_height, 1);
   const std::size_t row_bytes = stored_.row_bytes();

@@ -9,11 +9,11 @@
 
 namespace remap {
 
-// ResampledRows interpolates bilinearly between texel centers and extends the edge beyond the outermost ones.
-// Values with a transfer curve are interpolated as linear light. It holds the stored rows of one band.
+// A ResampledRows interpolates bilinearly between texel centers. Beyond the outermost centers, it repeats the
+// edge. It interpolates values with a transfer curve as linear light. It keeps the stored rows of one band.
 class ResampledRows {
  public:
-  // Reads `count` stored rows from `first`; for tiled files with the rules of StoredImage::read_rows.
+  // Reads `count` stored rows from `first` on. In tiled files, the rules of StoredImage::read_rows apply.
   using ReadStored = std::function<void(int first, int count, std::byte* texels)>;
 
   // `stored` is the layout in the file. `width` and `height` are at least the size in the file. `transfers`
@@ -24,12 +24,12 @@ class ResampledRows {
   const ImageLayout& layout() const noexcept { return layout_; }
   const ImageLayout& stored() const noexcept { return stored_; }
 
-  // Makes rows [first_row, first_row + row_count). Each stored row is read once if bands follow each other
-  // from the top.
+  // Makes the rows [first_row, first_row + row_count). If bands follow each other from the top, each stored
+  // row is read only once.
   void read(int first_row, int row_count, std::byte* texels, const ReadStored& read_stored);
 
  private:
-  // A Place is a position between texels `first` and `second`; `weight` belongs to the second.
+  // A Place is a position between texels `first` and `second`. `weight` is the weight of `second`.
   struct Place {
     std::size_t first, second;
     float weight;
@@ -52,7 +52,7 @@ class ResampledRows {
   std::vector<std::byte> held_;  // stored rows [held_begin_, held_end_)
   int held_begin_ = 0;
   int held_end_ = 0;
-  FloatRow rows_[2];  // one even and one odd row, which are neighbours
+  FloatRow rows_[2];  // two neighbouring rows, the even one first
   std::vector<float> blended_;
 };
 

@@ -63,7 +63,7 @@ bool is_wanted(const TargetChoice& choice, Parameter parameter) {
   return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
 }
 
-// Returns what a channel of a result holds if it follows `place`, a channel of an input map.
+// Returns what a channel of a result holds if the result is made from `place`, a channel of an input map.
 TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const TargetChoice& choice) {
   std::optional<TargetChannel> content;
   std::optional<Parameter> held;
@@ -93,7 +93,8 @@ ImageChanges changes_of(const TargetChoice& choice) {
 
 const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kColorAndAlpha = {"R", "G", "B", "A"};
 
-// Returns the name of a result. The set's name replaces `*` in `pattern`, or comes first.
+// Returns the name of a result. If `pattern` has a `*`, the set's name replaces it. Otherwise, the set's name
+// comes first.
 std::string named(const std::string& pattern, const ResultNames& names) {
   const std::size_t star = pattern.find('*');
   if (star == std::string::npos)
@@ -121,7 +122,8 @@ std::optional<Parameter> color_of(const std::vector<TargetChannel>& channels) {
   return std::nullopt;
 }
 
-// Returns the parameter whose file a result follows: the same parameter, or a color that it is made from.
+// Returns the parameter whose file is the model of a result: the same parameter, or a color that the result
+// is made from.
 const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   if (const SetParameter* own = set.map_of(parameter)) return own;
   for (const Parameter other : {Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kSpecular})
@@ -129,7 +131,7 @@ const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   return nullptr;
 }
 
-// Returns how a color is stored. Colors in integers follow the map that they are made from.
+// Returns how a color is stored. Colors in integers have the curve of the map that they are made from.
 ColorStorage color_storage(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   ColorStorage storage;
   if (const auto chosen = choice.color_transfers.find(parameter); chosen != choice.color_transfers.end())
@@ -139,7 +141,7 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
   return storage;
 }
 
-// Returns a new map for a parameter. In the set, the parameter is a constant or part of another file.
+// Returns a new map for a parameter that has no file of its own in the set.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
@@ -193,11 +195,11 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
     return carried(std::string(parameter_name(parameter)), 0.0f);
   if (!is_color(parameter)) return {ConvertedChannel{parameter}};
   std::vector<TargetChannel> channels = color_channels(set, parameter, choice);
-  channels.resize(3, channels.front());  // grey in every color
+  channels.resize(3, channels.front());  // grey becomes three equal channels
   return channels;
 }
 
-// Returns true if a file of the layout has any value of the material. Nobody needs the other files.
+// Returns true if a file of the layout would hold any value of the set. Other files are not written.
 bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
     if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);
@@ -208,7 +210,7 @@ bool holds_something(const LayoutFile& file, const TextureSet& set, const Target
   });
 }
 
-// Reports channels that no result has. Layouts that name their files have no place for them.
+// Returns messages about channels that no result has. Layouts with named files have no place for them.
 std::vector<std::string> unplaced(const TextureSet& set) {
   std::vector<std::string> messages;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
@@ -226,7 +228,7 @@ std::vector<std::string> unplaced(const TextureSet& set) {
   return messages;
 }
 
-// Returns the maps of the set that are parts of the file of `first`, in the order of the file.
+// Returns the maps of the set that are parts of the same file as `first`, in the order of the file.
 std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first) {
   std::vector<std::size_t> parts;
   for (std::size_t map = 0; map < set.maps.size(); ++map)
@@ -236,7 +238,7 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
   return parts;
 }
 
-// Adds a copy unless a file of this name is already written or copied.
+// Adds a copy, unless the plan already writes or copies a file of this name.
 void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bool turns_green = false) {
   const auto is_there = [&](const auto& result) { return result.path == path; };
   if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
@@ -249,7 +251,7 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   plan.copies.push_back({source, path, {}, turns_green});
 }
 
-// Returns true if all files hold values above 1.
+// Returns true if the chosen type and format can hold values above 1.
 bool holds_floats(const TargetChoice& choice) {
   const bool is_float_type = choice.type == PixelType::kHalf || choice.type == PixelType::kFloat;
   return choice.extension == "hdr" ||
@@ -289,7 +291,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
       for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
         part.channels.push_back(content_of(set, {map, c}, choice));
       const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
-      if (!is_changed) part.changes.type = std::nullopt;  // an unchanged part keeps its type
+      if (!is_changed) part.changes.type = std::nullopt;  // an unchanged part keeps its pixel type
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
     }
@@ -326,7 +328,7 @@ PlannedMap carried_map(const TextureSet& set, const CarriedParameter& carried, c
   return map;
 }
 
-// Refuses a layout with a place for a parameter that the conversion does not make.
+// Refuses a layout that has a place for a parameter which the conversion does not make.
 void require_held(const TargetChoice& choice) {
   const auto lacks = [&](Parameter held, Parameter other) {
     return choice.layout.file_with(held) != nullptr && is_wanted(choice, other);
@@ -339,7 +341,7 @@ void require_held(const TargetChoice& choice) {
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
       throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
-                                         " (a channel would be empty)");
+                                         ", which would have an empty channel (remove one of the two)");
 }
 
 PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
@@ -355,7 +357,7 @@ PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const Targe
   return new_map(named(file.name, choice.names), names, std::move(channels), set, choice);
 }
 
-// Returns the files of the layout, then one file for each parameter that has no place in them.
+// Returns the files of the layout, and a file for each parameter that has no place in them.
 std::vector<PlannedMap> layout_maps(const TextureSet& set, const TargetChoice& choice) {
   require_held(choice);
   std::vector<PlannedMap> all;
@@ -383,7 +385,7 @@ std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& na
 
 namespace {
 
-// Returns the place whose stored values a channel repeats.
+// Returns the input channel whose stored values a channel of a result repeats.
 std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetChannel& channel,
                                            const TargetChoice& choice) {
   if (const auto* place = std::get_if<ChannelPlace>(&channel)) return *place;
@@ -397,7 +399,7 @@ std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetCh
   return own->channels[made->index];
 }
 
-// Returns the file that a result would repeat, channel by channel, in the same type and format.
+// Returns the file that a result would repeat. All its channels, their type and the format must be the same.
 std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& planned,
                                       const TargetChoice& choice) {
   if (planned.parts.size() != 1) return std::nullopt;

@@ -22,16 +22,16 @@ struct PlannedMap {
 // green is inverted.
 struct CopiedFile {
   std::filesystem::path source;
-  // This is the copy's name without extension, in layouts that name their files. If it is empty, the copy
-  // keeps the file's name.
+  // This is the name of the copy, without extension, in layouts with named files. If it is empty, the copy
+  // keeps the name of the file.
   std::string name;
-  // This is the name of a normal map's copy with inverted green.
+  // This is the name of the copy of a normal map with inverted green.
   std::string turned_name;
 };
 struct PlannedCopy {
   std::filesystem::path source;
   std::filesystem::path path;
-  std::vector<TargetPart> parts;  // parts of a result that repeats the source; empty for unconverted files
+  std::vector<TargetPart> parts;  // parts of a result that repeats its source; empty for unconverted files
   bool turns_green = false;
 };
 
@@ -41,11 +41,12 @@ struct TargetPlan {
   std::vector<std::string> unplaced;  // a message for each input channel without a place in the layout
 };
 
-// Throws kUsage if an integer result would hold roughness as an exponent. Integers store 0 to 1, but
-// exponents are larger.
+// Throws kUsage if a result with integers would hold roughness as an exponent, because integers store 0 to 1,
+// and exponents are larger.
 void require_target_scale(const TextureSet& set, const TargetPlan& plan);
 
-// A ResultNames holds the text around names of results without an input: `wood` specular `.1001`.
+// A ResultNames holds the text before and after a parameter in the name of a result that has no input of its
+// own. For `wood_specular.1001`, these are `wood` and `.1001`.
 struct ResultNames {
   std::string set;
   std::string after;
@@ -53,30 +54,31 @@ struct ResultNames {
 
 struct TargetChoice {
   std::filesystem::path folder;
-  std::vector<Parameter> parameters = {Parameter::kRoughness, Parameter::kSpecular};  // to write
+  std::vector<Parameter> parameters = {Parameter::kRoughness, Parameter::kSpecular};  // parameters to write
   std::string width_name = "roughness";           // name of a separate roughness file
-  std::map<Parameter, Transfer> color_transfers;  // chosen by the user
-  bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
-  std::vector<TargetChannel> diagnoses;  // the mask and measures, one grey map each, in a separate folder
+  std::map<Parameter, Transfer> color_transfers;  // transfer curves that the user chose
+  bool colors_stay_grey = true;                   // if grey in the set, a color in a separate file stays grey
+  std::vector<TargetChannel> diagnoses;           // mask and measures, each a grey map in diagnosis_folder
   std::filesystem::path diagnosis_folder;
-  std::string extension;                 // extension of all files; if empty, inputs decide
+  std::string extension;                 // extension of all files; if empty, as the inputs
   std::optional<PixelType> type;         // type of all files
   std::optional<int> compression_level;  // for all files whose compression has levels
   ResultNames names;
   Layout layout = as_inputs();
-  // The stored values of these stay unchanged. A result that would repeat a file becomes a copy of it.
+  // These parameters keep their stored values. A result that would equal an input file becomes a copy of this
+  // file.
   std::vector<Parameter> unchanged;
-  // These have values that integers cannot hold. New files of them are EXR.
+  // These parameters have values that integers cannot hold, so new files of them are EXR.
   std::vector<Parameter> wide;
   std::vector<CopiedFile> copies;
   Metadata metadata;
 };
 
-// Returns the extension of a result that follows `input`. WebP is written as PNG.
+// Returns the extension of a result that is made from `input`. A result from WebP is PNG.
 std::string written_extension(const std::filesystem::path& input);
 
-// Returns the name, without extension, of the file that holds a parameter. It applies to layouts that name
-// their files, and if no input has the same name.
+// Returns the name, without extension, of the file that holds a parameter. This is for layouts with named
+// files, and for results without an input of the same name.
 std::string file_name(Parameter parameter, const TargetChoice& choice, const ResultNames& names);
 // Returns the name of a diagnosis map, without extension: `wood_mask`, `wood_residual`.
 std::string diagnosis_name(const TargetChannel& diagnosis, const ResultNames& names);

@@ -13,10 +13,10 @@
 namespace remap {
 namespace {
 
-// EXR compresses 1, 16 or 32 rows together (256 for dwab). Bands must not split such groups.
+// EXR compresses 1, 16 or 32 rows together (256 for dwab). A band must not end inside such a group.
 constexpr std::size_t kChunkRows = 32;
 
-// No valid image needs more for a band, but a damaged file may.
+// No band of a valid image is larger than this, but a band of a damaged file may be.
 constexpr std::size_t kLargestBand = std::size_t{2} << 30;
 // Scans, filters and JPEG leave differences of up to 18 of 255 between channels of a grey map.
 constexpr float kGreyTolerance = 20.0f / 255.0f;
@@ -28,7 +28,7 @@ struct Band {
   std::vector<std::vector<std::byte>> maps;
 };
 
-// Returns the channel of the set that a channel copies, or null.
+// Returns the channel of the set that this channel copies, or null.
 const ChannelPlace* copied(const TargetChannel& channel) { return std::get_if<ChannelPlace>(&channel); }
 
 // A Target is a part of a file, with its writer.
@@ -52,8 +52,8 @@ std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Ta
   return {maps.begin(), maps.end()};
 }
 
-// A Round is the parts that are written together. All files of one part form one round. Each part of a file
-// with several parts is a separate round, because parts must be written in order.
+// A Round is the parts that are written at the same time. All files with one part are one round. Each part of
+// a file with several parts is a separate round, because parts must be written in order.
 struct Round {
   Round(const TextureSet& set, std::vector<Target> written, int number)
       : targets(std::move(written)),
@@ -89,8 +89,8 @@ class Pass {
   MapStatistics run(const Progress& progress);  // reads the next band while one is converted
 
  private:
-  // Returns the index of the input band that can be overwritten in place, because `target` copies its other
-  // channels. Returns -1 if there is none.
+  // Returns the index of the input band that can be overwritten in place, because all copied channels of
+  // `target` come from the same channels of this band. Returns -1 if no band can.
   int map_in_place(const Target& target) const;
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
@@ -113,9 +113,9 @@ class Pass {
   const Converter& converter_;
   const PassOptions& options_;
   std::launch launch_;
-  std::vector<int> in_place_;  // index of a map for each target, or -1
+  std::vector<int> in_place_;  // for each target, the map whose band it overwrites, or -1
   int band_rows_;
-  std::vector<std::vector<std::byte>> converted_;  // bands of targets that are not in place
+  std::vector<std::vector<std::byte>> converted_;  // bands of targets that overwrite no input band
 };
 
 Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options)
@@ -145,7 +145,7 @@ int Pass::map_in_place(const Target& target) const {
         return false;
     return true;
   };
-  // A map that another target copies from must not be overwritten.
+  // A map must not be overwritten if another target copies from it.
   const auto is_shared = [&](std::size_t map) {
     const auto is_from_map = [&](const TargetChannel& c) {
       const ChannelPlace* from = copied(c);
@@ -257,7 +257,7 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
 void Pass::add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
                       MapConversion& maps) const {
   TargetParameter& parameter = maps.targets[channel.parameter];
-  // Equal channels are appended; the channels of a color have fixed places.
+  // If channels are equal copies, append this one. Otherwise, each channel of a color has a fixed place.
   const auto source = set_.parameters.find(channel.parameter);
   const bool is_copy = !is_color(channel.parameter) ||
                        (source != set_.parameters.end() && source->second.channel_count() == 1 &&
@@ -310,7 +310,8 @@ MapStatistics Pass::convert(Band& band) {
   return statistics;
 }
 
-// Returns the number of mip levels of the files of a round. Throws if one of their maps has another number.
+// Returns the number of mip levels in the files of a round. Throws if one of its maps has a different number
+// of levels.
 int level_count(const TextureSet& set, const Round& round) {
   int levels = 0;
   for (const Target& target : round.targets)
@@ -338,7 +339,7 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       for (const std::size_t map : round.maps) set.maps[map].select_level(level);
       for (const Target& target : round.targets) target.writer->select(round.part, level);
       const double rows = set.maps[round.maps.front()].layout().height;
-      // A level takes a quarter of the time of the previous one; the last level ends the round.
+      // Each level takes a quarter of the time of the previous level, and the round ends with the last level.
       const double left = std::ldexp(1.0, -2 * level), own_share = level + 1 < levels ? 0.75 : 1.0;
       const MapStatistics plane = Pass(set, round, converter, options).run([&](int done) {
         const double of_round = 1.0 - left * (1.0 - own_share * done / rows);

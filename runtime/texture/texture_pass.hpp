@@ -1,5 +1,5 @@
-// This file converts a texture set in bands of rows that are read, converted and written. So memory stays
-// bounded for maps of any size.
+// This file converts a texture set in bands of rows. It reads, converts and writes one band after another, so
+// that memory stays bounded for maps of any size.
 #pragma once
 
 #include <atomic>
@@ -15,20 +15,20 @@
 
 namespace remap {
 
-// A TargetChannel is the content of a channel of a result: a converted value, the mask of texels outside the
-// domain, a copy of a channel of the set, or one stored value for all texels.
+// A TargetChannel is the content of a channel of a result. It is a converted value, the mask of texels
+// outside of the domain, a copy of a channel of the set, or one stored value for all texels.
 struct ConvertedChannel {
   Parameter parameter = Parameter::kRoughness;
-  std::size_t index = 0;  // channel of the parameter
+  std::size_t index = 0;  // channel of the parameter, such as 2 for blue
 };
 struct MaskChannel {};
 using TargetChannel = std::variant<ConvertedChannel, MaskChannel, ChannelPlace, float>;
 
-// Returns true if a converter makes the channel, so it is neither a copy nor a constant.
+// Returns true if a converter makes the channel. Copies and constants are not converted.
 inline bool is_converted(const TargetChannel& channel) noexcept { return channel.index() < 2; }
 
 struct TargetPart {
-  std::size_t model = 0;  // index of the map of the set that the part follows
+  std::size_t model = 0;  // index of the map that the part is made from
   ImageChanges changes;
   std::vector<TargetChannel> channels;  // all channels of the part
 };
@@ -41,20 +41,20 @@ struct TargetMap {
 
 struct PassOptions : MapTreatment {
   int thread_count = 1;  // threads of the conversion; above 1, reading and writing overlap
-  // This is the largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or
+  // This is the largest size of a band, unless whole tiles need more. Two bands are in memory at once, or
   // three if pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
   std::function<void(double share_done)> progress;
-  // Gives the finished files their names. By default it calls NewImage::commit() of each.
+  // Gives the finished files their final names. By default, this calls NewImage::commit() for each file.
   std::function<void(std::vector<TargetMap>& finished)> commit;
   const std::atomic<bool>* cancelled = nullptr;  // checked between bands
 };
 
-// Converts `set` into `targets` and gives the finished files their names. Each mip level is converted
+// Converts `set` into `targets` and gives the finished files their final names. Each mip level is converted
 // separately, so that a renderer filters the same parameters as in the source. The values equal
 // Converter::convert for each texel, rounded to the pixel type of the file, for any thread count and band
-// size. Throws the errors of the files and of convert_maps, and kInterrupted if cancelled. After an exception
-// no file has appeared. But if a rename fails, the files renamed before it remain.
+// size. Throws the errors of the files and of convert_maps, and kInterrupted if cancelled. After an
+// exception, no file has appeared. Only if a rename fails, the files that were renamed before remain.
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options);
 

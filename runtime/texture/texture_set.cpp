@@ -28,10 +28,10 @@ std::string listed(std::span<const std::string> names) {
   return text;
 }
 
-// From this size on, remarks mention an image that cannot be streamed.
+// If an image that cannot be read in bands is at least this large, remarks() mentions it.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
-// Returns nothing if one of the parts is not a number.
+// Returns the numbers of a list, or nothing if one of its items is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
   for (const std::string& part : parts_between(text, ',')) {
@@ -64,7 +64,7 @@ std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_v
   return static_cast<std::size_t>(found - layout.channels.begin());
 }
 
-// Finds a channel by its name, or by its part's name and its own: `base.R`.
+// Finds a channel by its name, or by the name of its part and its own name: `base.R`.
 std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_view name) {
   const std::string part = reader.part_name() + ".";
   if (const auto found = find_channel(reader.layout(), name)) return found;
@@ -73,7 +73,8 @@ std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_v
   return find_channel(reader.layout(), name.substr(part.size()));
 }
 
-// Returns R, G and B, or Y, or the only channel except alpha. Returns nothing if the file has none of these.
+// Returns R, G and B, or Y, or the only channel except alpha. Returns nothing if the file does not have these
+// channels.
 std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   const auto red = find_channel(layout, "R"), green = find_channel(layout, "G"),
              blue = find_channel(layout, "B");
@@ -130,7 +131,7 @@ std::vector<std::size_t> layer_channels(const ImageLayout& layout, std::optional
   return found.size() == 1 ? found.front() : std::vector<std::size_t>{};
 }
 
-// Returns nothing if the part lacks one of the channels.
+// Returns the named channels of a part, or nothing if one of them is missing.
 std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
   std::vector<std::size_t> channels;
   for (const std::string& name : asked) {
@@ -171,7 +172,8 @@ ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
   return set.maps[parameter.channels.front().map];
 }
 
-// Returns the curve of each channel of a map, because colors are interpolated as linear light.
+// Returns the transfer curve of each channel of a map. Resampling needs them, because colors are interpolated
+// as linear light.
 std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
   std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
   for (const auto& [parameter, values] : set.parameters)
@@ -194,7 +196,7 @@ void resample_to_largest(TextureSet& set) {
   }
 }
 
-// Returns the indices of the parts of a file among the maps of the set. Opens the file if the set lacks it.
+// Returns the maps of the set that are parts of a file. Opens the file if the set does not have it.
 std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   std::vector<std::size_t> parts;
   for (std::size_t i = 0; i < set.maps.size(); ++i)
@@ -221,7 +223,7 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
                                      expected + " (choose with FILE:CHANNEL)");
 }
 
-// Finds the named channels, or the color channels, in the only part of the file that has them.
+// Finds the named channels, or the color channels, in a file. Only one part of the file may have them.
 std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Parameter> parameter,
                                         const std::string& expected, TextureSet& set) {
   const std::vector<std::size_t> parts = open_file(name.file, set);
@@ -244,7 +246,7 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
                                      "FILE:PART.R,PART.G,PART.B)");
 }
 
-// The user's word overrides the tag of the file, which only concerns integers.
+// The color space that the user gives overrides the tag of the file. Tags count only for integers.
 void choose_transfer(const TextureSet& set, std::optional<Transfer> asked, SetParameter& color) {
   const ChannelPlace first = color.channels.front();
   const ImageLayout& layout = set.maps[first.map].layout();
@@ -267,7 +269,7 @@ SetParameter open_parameter(const ParameterRequest& request, std::optional<Param
   }
   const auto& map = std::get<MapName>(request.source);
   parameter.channels = find_channels(map, role, expected, set);
-  // If the channels are copies of one value, lossy compression and filters keep green best.
+  // If the channels are copies of one value, green keeps it best through lossy compression and filters.
   const bool is_copied = !(role && is_color(*role)) && map.channels.empty() && parameter.channels.size() == 3;
   if (is_copied) std::swap(parameter.channels[0], parameter.channels[1]);
   parameter.one_channel = request.one_channel;
@@ -365,7 +367,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     require_factors("--factor " + plain_name(parameter), opened);
     set.parameters[parameter] = std::move(opened);
   }
-  (void)set.first_map();  // throws if no parameter is a map
+  (void)set.first_map();  // throws if all parameters are numbers
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter =
         open_parameter(carried.parameter, std::nullopt, "one channel, Y, or R, G and B", set);
@@ -395,7 +397,7 @@ std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
   constexpr std::size_t kMegabyte = std::size_t{1} << 20;
   for (const ImageReader& map : set.maps) {
-    // OpenImageIO reads Targa files whole, and other formats by rows or tiles.
+    // OpenImageIO reads Targa files as a whole, and other formats by rows or tiles.
     const std::size_t bytes = map.layout().row_bytes() * static_cast<std::size_t>(map.layout().height);
     if (map.layout().format == "targa" && bytes >= kWholeImageWorthSaying)
       messages.push_back(map.path().string() + ": the whole Targa image is clamped in memory (" +

@@ -1,4 +1,5 @@
-// This file describes the maps of one material: which channels of files hold a converter's parameters.
+// This file describes the maps of one material. It records which channels of which files hold the parameters
+// of a converter.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +19,11 @@
 
 namespace remap {
 
-// A ConstantValues holds linear values instead of a map: one, or one each for red, green and blue.
+// A ConstantValues holds linear values instead of a map. It has one value, or three for red, green and blue.
 using ConstantValues = std::vector<float>;
 
-// A MapName is a file and names of its channels. Without names: the color channels or the only channel.
+// A MapName is a file and the names of channels in it. If there are no names, it means the color channels, or
+// the only channel.
 struct MapName {
   std::filesystem::path file;
   std::vector<std::string> channels;
@@ -29,21 +31,21 @@ struct MapName {
 
 struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
-  std::vector<float> factors;        // for the linear values: none, one, or one per channel
-  std::optional<Transfer> transfer;  // curve of a color; by default from the file, otherwise the usual
-  std::string one_channel = {};      // the option for one channel of the map, for messages
+  std::vector<float> factors;        // factors for the linear values: none, one, or one per channel
+  std::optional<Transfer> transfer;  // curve of a color; if unset, from the file or the usual curve
+  std::string one_channel = {};      // option that reads one channel of the map, for messages
 };
 
 // Parses the value of an option. `0.5` and `0.9,0.6,0.2` are constants. `maps.png:G` and `maps.exr:R,G,B`
-// name channels of a file, unless a file with this whole name exists. Any other text is a file. Throws
-// kUsage, with `option`, for other than one or three numbers, for a negative or infinite number, and for a
+// name channels of a file, unless there is a file of this whole name. Any other text is a file. Throws
+// kUsage, with `option`, for two or more than three numbers, for a negative or infinite number, and for a
 // percentage.
 std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text);
 
 // Parses one or three finite factors of at least 0. Throws like parameter_source().
 std::vector<float> parse_factors(std::string_view option, std::string_view text);
 
-// A CarriedRequest is a parameter that is not converted but has a place in a layout.
+// A CarriedRequest is a parameter that is not converted, but has a place in a layout.
 struct CarriedRequest {
   std::string name;  // such as `occlusion` or `metallic`
   ParameterRequest parameter;
@@ -51,8 +53,8 @@ struct CarriedRequest {
 
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
-  std::vector<CarriedRequest> carried;          // one channel each
-  std::optional<RoughnessEncoding> convention;  // of the roughness map; default: the model's
+  std::vector<CarriedRequest> carried;          // each with one channel
+  std::optional<RoughnessEncoding> convention;  // encoding of the roughness map; by default the model's
   bool resample = false;                        // enlarge maps to the largest width and height among them
 };
 
@@ -64,19 +66,19 @@ struct ChannelPlace {
 
 // A TransferReason is the origin of a color's transfer curve.
 enum class TransferReason {
-  kUsual,  // no file and no user: usual_color_transfer()
+  kUsual,  // neither a file nor the user states it: usual_color_transfer()
   kFile,
   kUser,
 };
 
 // A SetParameter is one parameter of an open set.
 struct SetParameter : ParameterValues {
-  // It is empty for a constant. If a parameter other than a color has several channels, they are nearly
-  // equal, and the first, which is green, holds its value.
+  // These are the channels that hold the parameter. They are empty for a constant. If a parameter other than
+  // a color has several channels, they are nearly equal, and the first of these, green, is used.
   std::vector<ChannelPlace> channels;
   TransferReason transfer_reason = TransferReason::kUsual;
-  bool is_whole_numbers = false;  // the file holds integers
-  std::string one_channel = {};   // option in the request
+  bool is_whole_numbers = false;  // true if the file holds integers
+  std::string one_channel = {};   // copied from the request
 
   bool is_map() const noexcept { return !channels.empty(); }
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }
@@ -84,12 +86,12 @@ struct SetParameter : ParameterValues {
 
 struct CarriedParameter {
   std::string name;
-  SetParameter parameter;  // one channel or one constant
+  SetParameter parameter;  // has one channel, or is one constant
 };
 
-// A TextureSet is an open set. Each texel has one value of each parameter, colors one or three. A map is one
-// part of a file. The set has all parts of its files; parts without a parameter may have any size. A file
-// that is named twice is opened once. At least one parameter is a map.
+// A TextureSet is an open set. Each texel has one value of each parameter, or for colors one or three. A map
+// is one part of a file. The set has all parts of its files. Parts without a parameter may have any size. A
+// file is opened only once, even if it has several parameters. At least one parameter is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   std::map<Parameter, SetParameter> parameters;
@@ -103,11 +105,11 @@ struct TextureSet {
     const auto found = parameters.find(parameter);
     return found == parameters.end() || !found->second.is_map() ? nullptr : &found->second;
   }
-  // Returns true if a parameter, even a carried one, has this channel.
+  // Returns true if a parameter has this channel, even if the parameter is only passed through.
   bool holds(const ChannelPlace& place) const;
   // Returns the maps with channels of parameters or coverage.
   std::set<std::size_t> maps_of_material() const;
-  // Returns the map of the first parameter that has one. It has the size of the set. Throws kUsage if no
+  // Returns the map of the first parameter that is a map. All maps have its size. Throws kUsage if no
   // parameter is a map.
   std::size_t first_map() const;
 };
@@ -118,7 +120,7 @@ struct TextureSet {
 TextureSet open_texture_set(const TextureSetRequest& request);
 
 // Throws kInput if the roughness map holds integers, is read as an exponent (`width`), and has no factor.
-// Integers store 0 to 1, but exponents are larger.
+// Integers store 0 to 1, and exponents are larger.
 void require_scale(const TextureSet& set, RoughnessEncoding width);
 
 // Returns warnings about the set, one message each.

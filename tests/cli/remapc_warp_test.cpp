@@ -125,7 +125,7 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its co
   write_set(session, "wood", 0.1, albedo_texel);
   keep_diffuse_alone(session, "wood");
   const ProcessResult result = require_success(run_warp(session, mask_words()));
-  CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
+  CHECK(result.errors.find("the source has only a diffuse map") != std::string::npos);
   const WarpMapFit fit = read_warp(session);
   CHECK(is_of_diffuse_alone(fit));
   CHECK(error_of(fit, albedo_texel) < 0.25);

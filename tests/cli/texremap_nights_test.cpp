@@ -107,8 +107,9 @@ TEST_CASE("texremap nights: another converter of the same name is another conver
   CHECK(states(tree, "--converters c1.json") == "d");
   const ProcessResult refused = tree.texremap(command("mitsuba/as", "--converters c2.json"));
   CHECK(refused.exit_code == 1);
-  CHECK_THAT(refused.last_error(), Contains("belongs to another conversion, mitsuba/ward to mitsuba/as") &&
-                                       Contains("numbers of the converter"));
+  CHECK_THAT(refused.last_error(),
+             Contains("holds results of another conversion, from mitsuba/ward to mitsuba/as") &&
+                 Contains("numbers of the converter"));
   CHECK(states(tree, "--converters c2.json --force") == "c");
   const std::string forced = tree.content("out/s0_spec.png");
   fs::remove_all(tree.path("out"));

@@ -146,7 +146,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   const ProcessResult other =
       tree.texremap("convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/ggx -o out --part 7/9");
   CHECK(other.exit_code == 1);
-  CHECK_THAT(other.errors, Contains("belongs to another conversion"));
+  CHECK_THAT(other.errors, Contains("holds results of another conversion"));
 }
 
 TEST_CASE("texremap parts: a part of a manifest that has changed since is named", "[slow]") {

@@ -115,7 +115,7 @@ TEST_CASE("texremap silence: a color space on request, and back without a word")
   const ProcessResult back = require_success(
       convert(tree, "--from usd-preview-surface --to gltf --base-color linear/base_color." + format +
                         " --metallic 1 --roughness 0.5 --output-color-space srgb -o back"));
-  CHECK_THAT(back.errors, Contains("base_color read as linear (tagged so by the file)"));
+  CHECK_THAT(back.errors, Contains("base_color read as linear (as the file's tag states)"));
   const std::vector<int> again = texel(tree, "back/base_color." + format);
   CHECK(std::abs(again[0] - 188) <= 1);
   CHECK(std::abs(again[1] - 124) <= 1);

@@ -117,8 +117,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
   // The specular workflow around Ward's model does not define its diffuse. It gets glTF's meaning: diffuse
   // only gets the light that specular does not reflect.
-  CHECK_THAT(result.errors,
-             Contains("the diffuse convention of mitsuba/ward is assumed to be scaled, as in gltf"));
+  CHECK_THAT(result.errors, Contains("assuming scaled diffuse for mitsuba/ward, as in gltf"));
   for (int y = 0; y < kWorkflowSize; y += 3)
     for (int x = 0; x < kWorkflowSize; ++x) {
       const float alpha = r.at(x, y, 0);
@@ -192,10 +191,10 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
   warned(words, "specular, read as linear, is white everywhere");
   write_specular(session, 8.0f);
-  warned(words, "texels reflect more than 1; clamped to 1");
+  warned(words, "texels reflect more than all light; clamped to 1");
   write_specular(session);
   warned(words,
-         "the diffuse convention of specular and metallic is assumed to be plain (if not, use "
+         "assuming plain diffuse for specular and metallic (otherwise, use "
          "--diffuse-convention scaled");
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);

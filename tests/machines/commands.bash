@@ -66,7 +66,7 @@ cp model.gltf tree/deeper
 expect 0 "1 asset" convert tree --recursive --assets --to gltf -o tree_out
 cmp tree_out/deeper/model.gltf expected.gltf || fail "deeper/model.gltf: other bytes than expected"
 expect 0 "1 done before" convert tree --recursive --assets --to gltf -o tree_out
-expect 1 "belongs to another conversion" convert tree --recursive --assets --from gltf --to gltf-specgloss -o tree_out
+expect 1 "holds results of another conversion" convert tree --recursive --assets --from gltf --to gltf-specgloss -o tree_out
 expect 0 "1 asset of 1 file" index tree --assets -o tree.manifest
 expect 0 "1 material converted" convert tree --manifest tree.manifest --part 1/1 --to gltf -o parts_out
 expect 0 "1 part: 1 asset converted, 0 failed" merge-reports parts_out

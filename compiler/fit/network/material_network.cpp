@@ -131,7 +131,7 @@ Samples samples_of(std::span<const MaterialRow> rows) {
   return samples;
 }
 
-// Computes the errors of the converter, whose outputs are clamped to 0 to 1.
+// Computes the errors of the converter. Its outputs are clamped to the range from 0 to 1.
 void judge(const Network& network, std::span<const MaterialRow> rows, NetworkTraining* training) {
   std::vector<double> colors, metals;
   for (const MaterialRow& row : rows) {

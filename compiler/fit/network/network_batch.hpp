@@ -1,5 +1,5 @@
-// This file evaluates a fully connected network on many samples: outputs, gradient and Jacobian by
-// backpropagation. The optimisers (network_optimisers.hpp) use it during training.
+// This file evaluates a fully connected network on many samples. It computes outputs, gradient and Jacobian
+// by backpropagation. The optimisers (network_optimisers.hpp) use it to train networks.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class NetworkBatch {
   const Eigen::MatrixXd& forward(const double* parameters);
 
   // Computes the derivatives of output k of sample n by all parameters, in row n * outputs + k. `parameters`
-  // must be the ones of the last forward pass.
+  // must be those of the last forward pass.
   void jacobian(const double* parameters, Eigen::Ref<RowMajor> jacobian) const;
 
   // Computes the derivative by all parameters of a function whose derivatives by the outputs of the last

@@ -54,7 +54,8 @@ class NetworkResiduals : public ceres::CostFunction {
   NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
       : batch_(shape, samples.training_inputs),
         expected_(samples.training_outputs),
-        // Scale the decay, because Ceres minimizes half the sum of squares, but the loss is their mean.
+        // The decay is scaled, because Ceres minimizes half the sum of squares, and the loss is the mean of
+        // squares.
         decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
     const auto count = static_cast<int>(shape.parameter_count());
     set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
@@ -84,7 +85,7 @@ class NetworkResiduals : public ceres::CostFunction {
   VectorXd decay_;
 };
 
-// NetworkLoss gives the same loss as a single number with its gradient.
+// NetworkLoss gives the loss as one number, with its gradient.
 class NetworkLoss : public ceres::FirstOrderFunction {
  public:
   NetworkLoss(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
@@ -132,7 +133,7 @@ class IterationWatch : public ceres::IterationCallback {
   const StepReport& report_;
 };
 
-// The tolerances end only searches that no longer move, because the validation error decides when to stop.
+// The tolerances only end searches that no longer move. Otherwise, the validation error decides when to stop.
 template <typename Options>
 void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
   options.max_num_iterations = settings.iterations;
@@ -183,7 +184,7 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
 
 OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& start,
                           const OptimiserSettings& settings, const StepReport& report) {
-  constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // the published values
+  constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // as in the paper
   const VectorXd decay = settings.weight_decay * weight_mask(shape);
   const Index count = samples.training_inputs.cols();
   const Index batch_size = std::min<Index>(settings.batch, count);

@@ -1,5 +1,5 @@
-// This file declares the optimisers of network_training.hpp. Each runs one training from one set of initial
-// parameters. Only this part of the networks uses Ceres.
+// This file declares the optimisers of network_training.hpp. Each function runs one training from one set of
+// initial parameters. Among the files about networks, only network_optimisers.cpp uses Ceres.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct OptimisedNetwork {
   int best_iteration = 0;
 };
 
-// A StepReport is called after each iteration with the finished fraction, 0 to 1. It must not throw; false
-// stops.
+// A StepReport is called after each iteration with the finished fraction, 0 to 1. It must not throw. If it
+// returns false, the training stops.
 using StepReport = std::function<bool(double share)>;
 
 // Runs Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The

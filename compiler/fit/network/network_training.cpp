@@ -26,8 +26,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLevenbergParameters = 600;
-// Limits a Levenberg-Marquardt iteration to about 0.05 s. Its time is proportional to residuals times
-// parameters squared. Small networks need most of it for the Jacobian, whose time is proportional to the
+// Limits an iteration of Levenberg-Marquardt to about 0.05 s. Its time is proportional to residuals times
+// parameters squared. In small networks, the Jacobian takes most of the time, which is proportional to the
 // residuals.
 constexpr double kLevenbergWork = 1e8;
 constexpr double kFewestResiduals = 1500.0, kMostResiduals = 3000.0;
@@ -35,7 +35,7 @@ constexpr int kLevenbergIterations = 300;
 constexpr int kLevenbergPatience = 80;
 constexpr int kRefitIterations = 60;
 constexpr double kStartsShare = 0.95;  // part of the progress bar; the refit gets the rest
-// This number of multiplications determines the number of Adam passes, within bounds.
+// The number of passes of Adam is chosen so that this many multiplications are needed, within bounds.
 constexpr double kAdamWork = 1e10;
 constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
 constexpr int kLbfgsIterations = 300;
@@ -99,7 +99,7 @@ MatrixXd normalised_columns(const Eigen::Map<const MatrixXd>& values, const std:
   return result;
 }
 
-// Derives a seed for each purpose `stream` (splitmix64, Steele et al. 2014).
+// Returns a seed for one purpose, which has the number `stream` (splitmix64, Steele et al. 2014).
 std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t z = seed + (stream + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -125,9 +125,9 @@ NormalisedSamples normalised_samples(const Samples& samples, std::uint64_t seed)
   return result;
 }
 
-// Splits the samples: the first `validation_fraction` of them (1 to 2048) are validation samples, the
-// following ones (at most `most_training`) training samples. With a fraction of 0 the training samples are
-// also the validation samples.
+// Splits the samples. The first `validation_fraction` of them (1 to 2048) are validation samples. The
+// following samples (at most `most_training`) are training samples. If the fraction is 0, the training
+// samples are also the validation samples.
 NetworkSamples split_columns(const NormalisedSamples& all, double validation_fraction,
                              std::size_t most_training) {
   const auto count = static_cast<std::size_t>(all.inputs.cols());
@@ -171,7 +171,8 @@ VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
 }
 
 // A StartsProgress combines the progress of all starts into a fraction that never decreases. Exceptions must
-// not pass through Ceres, so an exception is stored, ends every start and is rethrown after all have ended.
+// not pass through Ceres. So an exception is stored, it ends every start, and it is thrown again after all
+// have ended.
 class StartsProgress {
  public:
   StartsProgress(std::size_t starts, const FitProgress& progress)
@@ -204,7 +205,7 @@ class StartsProgress {
   std::atomic<bool> stopped_ = false;  // read without the lock
 };
 
-// A Training is one training from initial weights given by a seed.
+// A Training trains a network once. The seed determines the initial weights.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
 // A TrainingOutcome is the result of either way of training.
@@ -267,7 +268,7 @@ TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& 
       options, progress, outcome);
   if (options.validation_fraction == 0.0) return outcome;
 
-  // A short refit stays close to the validated parameters and uses the additional rows.
+  // A short refit starts from the validated parameters, stays close to them, and uses the additional rows.
   NetworkSamples& samples = outcome.samples;
   const Index used = samples.training_inputs.cols() + samples.validation_inputs.cols();
   samples.training_inputs = all.inputs.leftCols(used);

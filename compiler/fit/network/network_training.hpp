@@ -9,8 +9,8 @@
 
 namespace remap {
 
-// The defaults were chosen on the table that Sztrajman et al. (2019) published: two layers of 8 units are as
-// accurate as two layers of 16 and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
+// The defaults were chosen on the table that Sztrajman et al. (2019) published. Two layers of 8 units are as
+// accurate as two layers of 16, and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
 // states the errors.
 struct TrainingOptions {
   std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; if empty, a linear map
@@ -18,8 +18,9 @@ struct TrainingOptions {
   std::uint64_t seed = 1;             // seed of initial weights and validation rows
   std::size_t starts = 4;             // independent trainings, at least 1; the best is kept
   double validation_fraction = 0.15;  // fraction of rows, 0 to 0.5; 0: validate on the training rows
-  // This weights the sum of squared weights. On the published table, 1e-9 halves the error of a polynomial of
-  // low degree fitted to the network. The error on unseen rows rises from 1.3e-5 to 2.1e-5.
+  // This is the weight of the sum of squared weights. On the published table, 1e-9 halves the error of a
+  // polynomial of low degree that is fitted to the network. The error on unseen rows rises from 1.3e-5 to
+  // 2.1e-5.
   double weight_decay = 1e-9;
   unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
 };
@@ -27,9 +28,9 @@ struct TrainingOptions {
 struct TrainedNetwork {
   Network network;
   double training_rms = 0.0;    // over the training rows, in normalised units
-  double validation_rms = 0.0;  // of the best start, before it was refitted to all rows; in normalised units
+  double validation_rms = 0.0;  // of the best start before its refit to all rows; in normalised units
   std::size_t best_start = 0;
-  // number of used rows, including validation rows; may be less than the number of given rows
+  // number of used rows, with validation rows; may be smaller than the number of given rows
   std::size_t rows = 0;
   std::string method;  // one line: layers, optimisers, starts, iterations, rows
 };
@@ -40,12 +41,14 @@ struct TrainedNetwork {
 // Networks of up to 600 parameters are trained by Levenberg-Marquardt. The best start is then refitted to all
 // rows, including the validation rows. On the published table, this reduces the error on unseen rows by 7 %
 // on average. Larger networks are trained by Adam and then by L-BFGS. Each start keeps the weights with its
-// best validation error. For very many rows, a random subset bounds the time; `rows` and `method` record it.
+// smallest validation error. If there are very many rows, a random subset is used, which `rows` and `method`
+// record.
 //
-// The same samples and options give the same bytes on one machine for any `jobs`. One thread at a time calls
-// `progress`, with fractions that never decrease. An exception from it ends all threads and is rethrown.
-// Throws kInput for fewer than 10 rows, rows of different length or numbers that are not finite. Throws
-// kUsage for a layer without units or options out of range, and kNumeric if no start gives finite errors.
+// On one machine, equal samples and options give the same bytes for any `jobs`. `progress` is called by one
+// thread at a time, with fractions that never decrease. An exception from it ends all threads and is thrown
+// again. Throws kInput for fewer than 10 rows, rows of different length or numbers that are not finite.
+// Throws kUsage for a layer without units or options out of range, and kNumeric if no start gives finite
+// errors.
 TrainedNetwork train_network(const Samples& samples, const TrainingOptions& options,
                              const FitProgress& progress = {});
 

@@ -32,7 +32,8 @@ struct Least {
   }
 };
 
-// Returns the least value of `quantity` over a grid of the domain. `flat` means equal at every specular.
+// Returns the smallest value of `quantity` over a grid of the domain. If `flat`, it is the same at every
+// specular.
 Least least_over(const Domain& domain, bool flat, const auto& quantity) {
   Least least;
   for (int i = 0; i <= kAlphaSteps; ++i) {

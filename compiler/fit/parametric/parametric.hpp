@@ -1,5 +1,5 @@
-// This file does the parametric regression of section 7 (Sztrajman et al. 2019): roughness as a polynomial,
-// specular as a curve of exponentials.
+// This file does the parametric regression of section 7 (Sztrajman et al. 2019). Roughness is a polynomial,
+// specular a curve of exponentials.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domai
 Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& domain,
                                const std::string& form);
 
-// Code that chooses or refits a form uses the following functions, and fit_specular_terms().
+// The following functions, and fit_specular_terms(), are for code that chooses a form, or fits a form again.
 
 // Returns the least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
 std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);

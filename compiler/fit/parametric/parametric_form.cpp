@@ -11,7 +11,7 @@ const std::vector<RoughnessForm> kRoughnessForms = {
     {"quartic", "degree 4 in alpha", {4}},
 };
 
-// The authors' scripts add the pole to section 7.
+// The pole is not in section 7. The authors' scripts have it.
 const std::vector<SpecularForm> kSpecularForms = {
     {"slope", "k(alpha) specular", {1}, false},
     {"slope+pole", "slope with c5 / alpha in k", {1}, true},

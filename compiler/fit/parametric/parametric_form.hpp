@@ -1,5 +1,5 @@
-// This file lists the forms of the parametric kind, as data: which coefficients are free. Roughness and
-// specular are fitted separately, so a form consists of one of each.
+// This file lists the forms of the parametric kind as data, which shows the free coefficients. Roughness and
+// specular are fitted separately, so a form has two parts.
 #pragma once
 
 #include <span>
@@ -25,8 +25,8 @@ struct SpecularForm {
   std::string_view summary;
   std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
   bool pole = false;        // true if the factor of specular1 has the term pole / alpha1
-  // Returns true if the previous term has the same power as this one. The previous term then holds both
-  // constants.
+  // Returns true if this term has the same power as the previous term. Only the previous term then has a
+  // constant, for both.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };

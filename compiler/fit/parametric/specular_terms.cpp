@@ -24,11 +24,11 @@ constexpr std::size_t kFewestAlphas = 6;
 // The search starts at these rates, from straight lines to the narrowest bump that a table resolves.
 constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
                                                 8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
-// At the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay). A faster
-// exponential would only follow the rows of the smallest alpha.
+// At the second smallest alpha of a table, an exponential must be at least exp(-kLargestDecay). If it falls
+// faster, it only follows the rows of the smallest alpha.
 constexpr double kLargestDecay = 5.0;
-// This is the cost in rms error of a contribution of 1 at the largest alpha. It is negligible compared with
-// the error of a fit, but prevents curves of magnitude 1000 that cancel each other.
+// This is the cost, as an rms error, of a contribution of 1 at the largest alpha. It is small compared with
+// the error of a fit. But it prevents curves of magnitude 1000 that cancel each other.
 constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
 constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
@@ -82,16 +82,16 @@ JoinedRows join_rows(const std::map<double, std::vector<const TableRow*>>& by_al
   return samples;
 }
 
-// Returns the derivative of phi(rate, x) by the rate. Uses the series where the closed form is 0 / 0.
+// Returns the derivative of phi(rate, x) by the rate. Uses the series if the closed formula is 0 / 0.
 double rise_derivative(double rate, double x) {
   const double y = rate * x;
   if (y < 1e-3) return -x * x * (1.0 / 2.0 - y * (1.0 / 3.0 - y * (1.0 / 8.0 - y / 30.0)));
   return (y * std::exp(-y) + std::expm1(-y)) / (rate * rate);
 }
 
-// VariableProjection gives the squared error as a function of only the rates, with the least squares
-// coefficients for them (Golub and Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact). The
-// rates are ramp_rate and bump_rate of each term in turn.
+// VariableProjection gives the squared error as a function of the rates only. The other coefficients are the
+// least squares solution for these rates (Golub and Pereyra 1973). The Jacobian is Kaufman's (1975), whose
+// gradient is exact. The rates are ramp_rate and bump_rate of each term, in this order.
 class VariableProjection {
  public:
   VariableProjection(const JoinedRows& samples, const SpecularForm& form)
@@ -111,7 +111,7 @@ class VariableProjection {
                                     form_.powers.begin());
   }
 
-  // Returns one row per sample, then one row per column for the penalty.
+  // Returns one row for each sample, and then one row for each column, for the penalty.
   MatrixXd basis(const std::vector<double>& rates) const {
     const Index terms = samples_.weights.cols(), count = sample_count();
     MatrixXd columns = MatrixXd::Zero(size(), column_count());
@@ -233,7 +233,7 @@ Rates polish(const VariableProjection& projection, Rates rates) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 500;
-  // A smaller relative decrease per step is rounding.
+  // If an error decreases by less in one step, this is rounding.
   options.function_tolerance = 1e-7;
   options.parameter_tolerance = 1e-9;
   options.gradient_tolerance = 1e-14;
@@ -245,8 +245,8 @@ Rates polish(const VariableProjection& projection, Rates rates) {
   return rates;
 }
 
-// Searches rates on the grid term by term. The slope comes first. The best few pairs of one term are combined
-// with every pair of the next term.
+// Searches rates on the grid, one term after another, beginning with the slope. The best few pairs of one
+// term are combined with every pair of the next term.
 std::vector<Rates> search_starts(const VariableProjection& projection) {
   std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
   std::vector<std::size_t> order = {projection.slope_term()};
@@ -307,7 +307,7 @@ void require_samples(std::size_t alpha_count, std::size_t specular_count, const 
 std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
                                              const std::vector<SpecularTerm>* near) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
-  std::set<double> alphas, speculars;  // from rows whose specular is not negligible
+  std::set<double> alphas, speculars;  // only rows whose specular is not negligible
   for (const TableRow& row : rows) {
     by_alpha[row.alpha1].push_back(&row);
     if (!(row.specular1 > 0.0)) continue;

@@ -1,5 +1,5 @@
-// This file fits the specular half of the parametric regression: curves of exponentials over alpha, one for
-// each power of specular, together.
+// This file fits the specular part of the parametric regression. It fits one curve of exponentials over alpha
+// for each power of specular, all at once.
 #pragma once
 
 #include <vector>

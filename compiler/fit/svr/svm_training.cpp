@@ -18,11 +18,11 @@ namespace {
 
 constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (Solver::Solve)
 constexpr double kLargestTolerance = 1e-3;    // tolerance of the optimality conditions, the default of libsvm
-// a larger factor costs accuracy, a smaller factor only costs time
+// A larger factor would make fits less accurate. A smaller factor would only take more time.
 constexpr double kToleranceOfEpsilon = 3.0;
 
-// This is the number of iterations, parsed from libsvm's messages. libsvm does not report it in another way,
-// and its print function is shared by all threads.
+// This is the number of iterations, which is read from libsvm's messages. libsvm does not report it in
+// another way, and all threads share its print function.
 thread_local long iteration_count = 0;
 
 void listen(const char* message) {
@@ -59,7 +59,7 @@ struct OwnedProblem {
   svm_problem problem{};
 };
 
-// Scales alpha, transformed by the pole, to [0, 1] over the samples, and specular by its span.
+// Scales alpha to [0, 1] over the samples, after the pole's transform. Scales specular by its span.
 std::vector<Scaling> input_scalings(const Samples& samples, const SvrHyperParameters& parameters) {
   double low = samples.inputs[0], high = low;
   for (std::size_t i = 0; i < samples.inputs.size(); i += samples.input_count) {

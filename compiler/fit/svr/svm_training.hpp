@@ -11,13 +11,13 @@
 
 namespace remap {
 
-// An SvrHyperParameters holds hyper-parameters of one output, in normalised units. Alpha (or alpha / (alpha +
-// alpha_pole)) and the output are scaled to [0, 1] over the training rows, specular to [0, specular_span].
-// Target specular is curved in alpha, mostly near 0, and nearly straight in specular. With a pole and a span
-// below 1, one gamma fits both inputs.
+// An SvrHyperParameters holds the hyper-parameters of one output, in normalised units. Alpha (or alpha /
+// (alpha + alpha_pole)) and the output are scaled to [0, 1] over the training rows, and specular to [0,
+// specular_span]. Target specular as a function of alpha is curved, mostly close to 0. As a function of
+// specular, it is nearly straight. With a pole and a span below 1, one gamma fits both inputs.
 struct SvrHyperParameters {
   double cost = 100.0;         // C, the penalty of errors above epsilon; > 0
-  double gamma = 1.0;          // of exp(-gamma |x - y|^2); > 0
+  double gamma = 1.0;          // for exp(-gamma |x - y|^2); > 0
   double epsilon = 1e-3;       // half width of the tube without penalty; > 0
   double specular_span = 1.0;  // (0, 1]; unused if alpha is the only input
   double alpha_pole = 0.0;     // at least 0, in units of alpha; 0: no transform

@@ -17,7 +17,7 @@ namespace remap {
 namespace {
 
 constexpr std::size_t kLargestTraining = 2000;  // samples; time grows faster than their square
-constexpr int kSoftenings = 3;  // reductions of C to a tenth if the final training does not converge
+constexpr int kSoftenings = 3;  // how often C is divided by ten if the final training does not converge
 constexpr double kSoftening = 0.1;
 
 // A Problem is one output of the table with its scalings.
@@ -35,7 +35,7 @@ Scaling scaling_of(const std::vector<double>& values) {
   return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
 }
 
-// Computes the mean output of the rows with the same inputs, sorted by inputs.
+// Combines rows with the same inputs to one sample with their mean output. Samples are sorted by inputs.
 Problem make_problem(const std::string& name, const std::vector<TableRow>& rows, std::size_t input_count,
                      double TableRow::*output) {
   std::map<std::array<double, 2>, std::vector<double>> outputs_of;
@@ -49,7 +49,7 @@ Problem make_problem(const std::string& name, const std::vector<TableRow>& rows,
                       static_cast<double>(values.size()));
   }
   Problem problem{name, {input_count, 1, {}, {}}, {}, scaling_of(outputs)};
-  problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it
+  problem.inputs.push_back({});  // the training scales alpha, so it is not scaled here
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < input_count; ++j)
@@ -71,7 +71,7 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
                       " (C, gamma and epsilon must be above 0, the span above 0 to 1, the pole at least 0)");
 }
 
-// Trains on `samples`. If C was searched, it is reduced until libsvm converges.
+// Trains on `samples`. If a search chose C, reduces C until libsvm converges.
 KernelExpansion train(const std::string& name, const Samples& samples, bool is_given,
                       SvrHyperParameters& parameters) {
   for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
@@ -83,7 +83,7 @@ KernelExpansion train(const std::string& name, const Samples& samples, bool is_g
                       number_text(parameters.gamma) + " (use a smaller C)");
 }
 
-// Searches the hyper-parameters into `used` if they are not given.
+// If hyper-parameters are not given, searches them and stores them in `used`.
 KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParameters>* used,
                            const SvrOptions& options, const FitProgress& progress,
                            std::map<std::string, std::string>& method) {
@@ -151,7 +151,7 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   regression.method["solver"] = solver_name() + ", epsilon-SVR, Gaussian kernel";
   regression.method["seed"] = std::to_string(options.seed);
   RisingProgress rising(progress);
-  // part of the progress bar; specular gets the rest
+  // The first part of the progress bar is for alpha, the rest for specular.
   const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;
   Svr svr;
   SvrOptions used = options;

@@ -1,4 +1,4 @@
-// This file holds the stages of the search. Threads work on tasks of one candidate and one fold.
+// This file holds the stages of the search. A task of a thread is one candidate with one fold.
 #include "fit/svr/svr_search.hpp"
 
 #include <algorithm>
@@ -18,16 +18,16 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
-constexpr std::size_t kFirstFolds = 2;  // hopeless candidates are dropped after these
-// a candidate is hopeless if its error is more than this many times the best error
+constexpr std::size_t kFirstFolds = 2;  // after so many folds, hopeless candidates are dropped
+// A candidate is hopeless if its error is more than this many times the best error.
 constexpr double kHopeless = 1.5;
-constexpr double kProgress = 0.99;  // an error of at most this times the old one is an improvement
-// This is kProgress for a tube a third as wide, whose training takes three times as long.
+constexpr double kProgress = 0.99;  // a new error is an improvement if it is at most this times the old error
+// This replaces kProgress for a tube of a third of the width, whose training takes three times as long.
 constexpr double kWorthTime = 0.9;
 constexpr std::size_t kNeverJudges = kFolds;
 
-// More samples change the choice little, as measured on the published table. The time of a training grows
-// faster than their square.
+// As measured on the published table, more samples change the choice little. The time of a training grows
+// faster than the square of their number.
 constexpr std::size_t kGridSamples = 250;
 constexpr std::size_t kPatternSamples = 400;
 constexpr std::size_t kTubeSamples = 600;
@@ -150,7 +150,7 @@ class Contest {
   Contest(Samples samples, std::uint64_t seed, unsigned jobs)
       : samples_(std::move(samples)), folds_(folds_of(samples_, seed)), jobs_(jobs) {}
 
-  // Evaluates the new `points` on the first folds, and the promising ones on the other folds.
+  // Evaluates those of `points` that are new on the first folds, and the promising ones on the other folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Trial*> entered;
     for (const Point& point : points) {
@@ -167,7 +167,7 @@ class Contest {
     if (progress_) progress_(1.0);
   }
 
-  // Returns the finished candidate with the smallest error, the first of equal ones.
+  // Returns the finished candidate with the smallest error. If several have this error, returns the first.
   const Trial& best() const {
     const Trial* best = nullptr;
     for (const auto& [point, candidate] : candidates_)
@@ -198,7 +198,7 @@ class Contest {
   void report_to(FitProgress progress) { progress_ = std::move(progress); }
 
  private:
-  // Evaluates each of `entered` on `fold_count` folds.
+  // Evaluates each trial in `entered` on `fold_count` folds.
   void run(const std::vector<Trial*>& entered, std::size_t fold_count) {
     if (entered.empty()) return;
     const std::size_t begin = entered.front()->folds.size(), folds = fold_count - begin;
@@ -231,8 +231,8 @@ std::vector<Point> grid(std::size_t input_count, int epsilon) {
   return points;
 }
 
-// Returns the points one step away along each axis, and along the diagonal on which C and gamma compensate
-// each other.
+// Returns the points at a distance of one step along each axis. Also returns points on the diagonal on which
+// C and gamma compensate each other.
 std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
   std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
                               {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};
@@ -259,8 +259,9 @@ Point follow(Contest& contest, Point point, Axis axis, int step, int limit, doub
   }
 }
 
-// Narrows the tube while this reduces the error. Otherwise widens it while the error stays the same. A narrow
-// tube shows differences between kernels that a wide tube hides, so gamma is increased again if this helps.
+// Makes the tube narrower as long as this reduces the error. Otherwise, makes it wider as long as the error
+// stays the same. A narrow tube shows differences between kernels that a wide tube hides. So larger values of
+// gamma are then tried again.
 Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   contest.enter({start});
   Point point = follow(contest, start, kEpsilon, -2, narrowest, kWorthTime);

@@ -52,7 +52,7 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-color-sp
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l only -x -a 'roughness specular' -d 'Write only this parameter'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l histograms -d 'With --json, also histograms of the values'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l quiet -d 'Print nothing but errors to standard error'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l verbose -d 'Print every warning, and measures of each set that pictures do not show'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l verbose -d 'Print every warning, the converter, and measures of each set that pictures do not show'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l from-workflow -x -a 'specular metallic' -d 'Workflow around the source model: specular'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l to-workflow -x -a 'specular metallic' -d 'Workflow around the target model'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l dielectric-f0 -x -d 'F0 of dielectrics: a number, or estimate to derive it from the maps'

@@ -55,8 +55,8 @@ class AssetResources {
   // Does what OpenAssetFile describes.
   virtual std::unique_ptr<ByteSource> open(const std::string& path) const = 0;
   virtual const ImageCodec& codec() const = 0;
-  // Returns the image enlarged to a size that is at least its own in both directions. It interpolates
-  // bilinearly in linear light. All channels except alpha are in sRGB.
+  // Returns the image at a larger size, which must be at least its own size in both directions. It is
+  // interpolated bilinearly in linear light. All channels except alpha are in sRGB.
   virtual ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const = 0;
   // Returns the prefix of the names of new images. It is set if another asset may add the same name.
   virtual std::string image_prefix() const { return ""; }
@@ -65,7 +65,7 @@ class AssetResources {
 // An AssetTarget is the form that materials are converted to.
 enum class AssetTarget {
   kMetalRough,  // metallic-roughness
-  kSpecGloss,   // KHR_materials_pbrSpecularGlossiness, with core as its fallback
+  kSpecGloss,   // KHR_materials_pbrSpecularGlossiness; core stays in the file for other viewers
 };
 
 struct AssetOptions {
@@ -79,7 +79,7 @@ struct AssetOptions {
   // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;
   bool bakes = false;  // moves maps with different KHR_texture_transform onto the grid of the first
-  std::optional<MtlMaker> mtl_maker = std::nullopt;  // if none, the file decides
+  std::optional<MtlMaker> mtl_maker = std::nullopt;  // if unset, detected from the file
   // This is the quality, 1 to 100, of new color images: JPEG, unless they have alpha or come from a color map
   // that is not JPEG. If it is missing, new images are PNG.
   std::optional<int> jpeg_quality = std::nullopt;
@@ -103,13 +103,13 @@ struct MaterialFactor {
 };
 
 struct AssetMaterial {
-  std::size_t index = 0;  // index in the file
-  std::string name;       // name in the file; may be empty
+  std::size_t index = 0;  // index of the material in the file
+  std::string name;       // name of the material in the file; may be empty
   MaterialState state = MaterialState::kUntouched;
   std::vector<MaterialFactor> factors;  // set for a converted material without varying maps
   double residual = 0.0;                // Parameter::kResidual; for maps the root of its mean square
   std::string becomes;                  // `base color 0.2 0.3 0.4, metallic 0, roughness 0.75`
-  std::vector<std::string> warnings;    // without the name of the material
+  std::vector<std::string> warnings;    // messages without the name of the material
   std::string failure;
 
   // Returns a text such as `material 3 "Paint"`, safe for a message.
@@ -132,22 +132,22 @@ struct NewResource {
 
 // An AssetResource is a URI of a file outside the asset.
 struct AssetResource {
-  // such as `/images/2/uri`; to save time, only set for the first URI that leads out of the folder or is
-  // absolute
+  // Such as `/images/2/uri`. To save time, this is set only for the first URI that is absolute or leads out
+  // of the folder.
   std::string where;
-  std::string path;  // relative to the asset, without percent signs; for kRemote the address
+  std::string path;  // relative to the asset, without percent codes; for kRemote, the address
   UriKind kind = UriKind::kFile;
 };
 
 struct AssetConversion {
   std::vector<AssetMaterial> materials;
   std::vector<std::string> warnings;     // warnings about the file
-  std::string text;                      // edited text of the materials, as UTF-8; the rest is unchanged
+  std::string text;                      // text of the file after the edits, as UTF-8
   std::vector<TextSpan> touched;         // bytes of the text that were replaced or removed
   bool changed = false;                  // true if a material was converted
   std::vector<AssetPiece> pieces;        // pieces of the converted file; empty if nothing was converted
   std::vector<NewResource> files;        // new images
-  std::vector<AssetResource> resources;  // files that the asset names, each path once, in order of the text
+  std::vector<AssetResource> resources;  // files that the asset uses, each once, in the order of the text
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }
 };

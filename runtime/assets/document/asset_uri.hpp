@@ -33,7 +33,7 @@ std::string stem_beside(const std::string& model, std::string_view prefix, std::
 
 enum class UriKind {
   kData,      // the bytes are in the URI
-  kFile,      // a relative path; AssetResources decide how far up `..` may lead
+  kFile,      // a relative path; AssetResources decides how far up `..` may lead
   kAbsolute,  // a path from a root, a drive or a host
   kRemote,    // an address with another scheme, such as https
 };
@@ -46,7 +46,8 @@ class NewImageNames {
   explicit NewImageNames(std::string prefix) : prefix_(std::move(prefix)) {}
   // Reserves a path that the asset uses already.
   void take(const std::string& path) { taken_.insert(path); }
-  // Returns `a/wood_baseColor.png` for `a/wood.jpg`, or `a/wood_baseColor_2.png` if that name is taken.
+  // Returns a free name, such as `a/wood_baseColor.png` for `a/wood.jpg`. If this name is taken, returns
+  // `a/wood_baseColor_2.png`.
   std::string free_name(const std::string& model, std::string_view suffix);
   // Returns `.png`, or `_2.png` if `stem` with `.png` is taken.
   std::string free_ending(const std::string& stem, const char* extension);

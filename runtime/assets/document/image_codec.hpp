@@ -28,14 +28,16 @@ inline std::string size_text(const ImagePixels& pixels) {
   return std::to_string(pixels.width) + "x" + std::to_string(pixels.height);
 }
 
-// These are zlib levels of PNG files. The usual level takes half the time of level 6, the common default, and
-// files are a tenth larger. The smallest level is for the best of several tries.
+// These are zlib levels of PNG files. The usual level takes half the time of level 6, which most programs
+// use, and makes files a tenth larger. The smallest level is only for images of which several versions are
+// tried.
 inline constexpr int kUsualPngLevel = 3, kSmallestPngLevel = 9;
 
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
-  // Decodes an image, and expands palettes. Throws kInput, beginning with `context`, for other bytes.
+  // Decodes an image and expands palettes. Throws kInput, beginning with `context`, for bytes that are not an
+  // image.
   virtual ImagePixels decode(std::string_view bytes, const std::string& context) const = 0;
   // Returns a PNG file. `level` is 1 (fast) to 9 (small). Throws kOutput.
   virtual std::string encode_png(const ImagePixels& pixels, int level) const = 0;

@@ -41,8 +41,8 @@ std::size_t MtlDocument::ending_length(std::size_t at) const {
   return text_[at] == '\n' ? 1 : 0;
 }
 
-// Ends a comment at its first line ending. A backslash before it does not continue the comment, because it
-// may belong to a path of Windows.
+// Returns the end of a comment, which is its first line ending. A backslash before the line ending does not
+// continue the comment, because it may be part of a Windows path.
 std::size_t MtlDocument::end_of_line(std::size_t begin) const {
   std::size_t at = begin;
   while (at < text_.size() && is_space(at)) at += space_length(at);

@@ -16,7 +16,7 @@ inline constexpr std::size_t kLongestMtl = std::size_t{1} << 28, kMostMtlStateme
 
 // An MtlStatement holds the places of a statement in the text.
 struct MtlStatement {
-  // begins at the indentation and ends before the line ending; includes all lines that backslashes join
+  // From the indentation to the line ending, which is not included. Lines that backslashes join are one line.
   TextSpan line;
   TextSpan ending;     // line ending of `line`; empty at the end of the text
   TextSpan word;       // `Kd`

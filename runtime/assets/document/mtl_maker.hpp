@@ -10,7 +10,7 @@
 namespace remap {
 
 enum class MtlMaker {
-  kText,       // statements follow the specification (Alias|Wavefront 1995)
+  kText,       // unknown; statements mean what the specification says (Alias|Wavefront 1995)
   kBlender,    // Blender 3.4 and later: Ns is 1000 (1 - roughness)^2
   kBlender28,  // Blender 2.8 to 3.3: Ns is 900 (1 - roughness)^2
   kNvdiffrec,  // `bsdf pbr`: map_Ks holds roughness in green and metallic in blue (Munkberg et al. 2022)
@@ -20,11 +20,13 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text
                                                          {MtlMaker::kBlender28, "blender-2.8"},
                                                          {MtlMaker::kNvdiffrec, "nvdiffrec"}}};
 
-// Returns the maker that the first comments name, or whose special statements occur, otherwise kText. Blender
-// 2.7 is kText: it wrote the exponents of its Blinn and Phong shaders, as the specification describes them.
+// Returns the maker that the first comments name, or whose special statements occur. Otherwise, returns
+// kText. Also returns kText for Blender 2.7, which wrote the exponents of its Blinn and Phong shaders, as the
+// specification describes them.
 MtlMaker maker_of(const MtlDocument& document);
 
-// Returns the warning about reading a file of this maker, `Blender wrote it: ...`, or nothing for kText.
+// Returns a warning that the file is read as this maker writes it: `Blender wrote it: ...`. Returns nothing
+// for kText.
 std::string maker_warning(MtlMaker maker);
 
 // Returns the Ns that Blender writes for roughness 0.

@@ -54,8 +54,8 @@ std::string TextEdits::colon_of(SpanValue object) const {
   return std::string(json_.text().substr(begin, end - begin));
 }
 
-// Removes each child with its separator. This is the separator after it, or the one before it if an earlier
-// child stays.
+// Removes each child with one separator. This is the separator after the child. If an earlier child stays, it
+// is the separator before.
 void TextEdits::add_splices(SpanValue container, const Changes& changes,
                             std::vector<TextSplice>& splices) const {
   const std::vector<SpanValue> children = container.children();

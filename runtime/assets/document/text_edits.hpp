@@ -20,12 +20,12 @@ class TextEdits {
   explicit TextEdits(const SpannedJson& json) : json_(json) {}
 
   bool empty() const noexcept { return replaced_.empty() && changed_.empty(); }
-  // Replaces a value by `text`, which must be JSON. No other edit may touch the inside of `value`.
+  // Replaces a value by `text`, which must be JSON. No other edit may change a part of `value`.
   void replace(SpanValue value, std::string text);
-  // Removes an entry or a member. No other edit may touch the inside of it.
+  // Removes an entry or a member. No other edit may change a part of it.
   void remove(SpanValue child);
   void remove_members(SpanValue object, std::string_view key);
-  // Appends a member after the last one, with the same white space as between the others.
+  // Appends a member after the last member, with the white space that other members have.
   void append_member(SpanValue object, std::string_view key, const std::string& text);
   void append_entry(SpanValue list, const std::string& text);
   // Replaces the value of a member, or appends the member.

@@ -10,7 +10,7 @@ std::string text_among(float value, const FactorText& first, const FactorText& s
   return is_factor(value, first) ? first.text : factor_text(value, second);
 }
 
-// Returns the other color that base color may come from.
+// Returns the color input that base color can be made from, if it is not base color.
 GltfInput other_color_of(GltfWorkflow workflow) {
   return workflow == GltfWorkflow::kSpecGloss ? GltfInput::kSpecGlossSpecular : GltfInput::kSpecularColor;
 }

@@ -51,7 +51,8 @@ std::vector<AssetResource> resources_of(const SpannedJson& json) {
   return resources;
 }
 
-// Removes files from the list if only replaced images used them, because the asset no longer needs them.
+// Removes files from the list of resources that only replaced images used. The asset no longer needs these
+// files.
 void drop_unnamed(AssetConversion& conversion, const std::string& context) {
   std::set<std::string> named;
   for (const AssetResource& resource : resources_of(SpannedJson(conversion.text, context)))
@@ -66,7 +67,7 @@ class ViewCheck {
   ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& context)
       : root_(json.root()), container_(container), context_(context) {}
 
-  // Returns warnings.
+  // Checks all views. Returns warnings.
   std::vector<std::string> run() {
     for (const SpanValue& buffer : root_["buffers"].entries()) {
       const std::optional<std::size_t> length = buffer["byteLength"].whole();

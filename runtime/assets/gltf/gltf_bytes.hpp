@@ -19,8 +19,8 @@ class GltfBytes {
   GltfBytes(const SpannedJson& json, const GltfContainer& container, const ByteSource& source,
             OpenAssetFile open);
 
-  // Returns the bytes of an image as its file has them. Throws kInput if the index has no image, or if its
-  // bytes cannot be read.
+  // Returns the bytes of an image, as its file has them. Throws kInput if there is no image with this index,
+  // or if its bytes cannot be read.
   std::string of_image(std::size_t index) const;
 
  private:

@@ -44,12 +44,12 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
 
 // A BinaryTail is the new end of the binary chunk.
 struct BinaryTail {
-  std::optional<std::uint64_t> kept;  // number of bytes that stay, from the start; if missing, all
+  std::optional<std::uint64_t> kept;  // number of bytes at the start that stay; if unset, all
   std::string appended;               // starts at the next multiple of four
 };
 
-// Returns the file with other JSON. Chunks keep their order, but the binary chunk ends with another tail.
-// Throws kOutput, beginning with `context`, if a container would have 4 GiB or more.
+// Returns the file with new JSON. Chunks keep their order. The binary chunk gets the new tail. Throws
+// kOutput, beginning with `context`, if a container would have 4 GiB or more.
 std::vector<AssetPiece> with_json(const GltfContainer& container, const std::string& json,
                                   const BinaryTail& tail, const std::string& context);
 

@@ -143,7 +143,7 @@ class GltfConversion {
     for (const auto& [index, edit] : edits_) edits.push_back(edit);
     TextEdits text(source_.json);
     GltfMaterialWriter writer(source_.json, source_.context, parts_ ? &parts_->added : nullptr, text);
-    std::set<std::size_t> removed;  // values of extensions of textures
+    std::set<std::size_t> removed;  // values of extensions that textures lose
     std::set<std::string> formats;
     if (parts_) {
       const GltfSpares spares =
@@ -165,7 +165,8 @@ class GltfConversion {
     result_.asset.text = text.result();
   }
 
-  // Reports vertex colors: COLOR_0 multiplies base color in one workflow and diffuse in the other.
+  // Reports vertex colors (COLOR_0), because they multiply base color in one workflow and diffuse in the
+  // other.
   void note_colored() {
     std::vector<std::size_t> counts(result_.asset.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())
@@ -193,7 +194,7 @@ class GltfConversion {
   SpanValue root_;
   const AssetOptions& options_;
   std::unique_ptr<ImageParts> parts_;
-  // the first direction that accepts a material converts it
+  // The first of these that accepts a material converts it.
   std::vector<std::unique_ptr<GltfDirection>> directions_;
   std::set<std::pair<std::size_t, std::string>> pointers_;  // keyed by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;

@@ -19,7 +19,7 @@ struct GltfSource {
 };
 
 struct GltfResult {
-  AssetConversion asset;  // its pieces and resources are filled in later
+  AssetConversion asset;  // the caller fills in its pieces and resources
   BinaryTail tail;
 };
 

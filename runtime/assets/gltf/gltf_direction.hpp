@@ -17,8 +17,8 @@ namespace remap {
 
 class MaterialTextures;
 
-// A TextureText is a texture of a converted material: a texture info of the file, unchanged or with the index
-// of a new texture.
+// A TextureText is a texture of a converted material. It is a texture info of the file, either unchanged or
+// with the index of a new texture.
 struct TextureText {
   SpanValue info;                    // empty without a texture
   std::optional<std::size_t> added;  // result of GltfNewImages::add_texture()
@@ -26,8 +26,8 @@ struct TextureText {
   explicit operator bool() const noexcept { return static_cast<bool>(info); }
 };
 
-// A MemberText is a member of an object: a text of JSON or a texture. If it has neither, the member is
-// absent.
+// A MemberText is a member of an object. Its value is a JSON text or a texture. If it has neither, the member
+// is not written.
 struct MemberText {
   std::string_view name;
   std::string text;
@@ -47,7 +47,7 @@ struct MaterialEdit {
   std::vector<std::string_view> removed_extensions;
   std::vector<ExtensionText> added_extensions;
   SpanValue carried_extras;  // extras of a removed extension; they move to pbrMetallicRoughness
-  // warning about what vertex colors change if they multiply a color, or empty
+  // warning if vertex colors multiply a color that the conversion changes; or empty
   std::string vertex_color_warning;
 };
 
@@ -56,7 +56,7 @@ class GltfDirection {
   virtual ~GltfDirection() = default;
   // Returns true if this direction converts the material.
   virtual bool applies_to(SpanValue material) const = 0;
-  // Returns the members of a material that it replaces: `pbrMetallicRoughness`,
+  // Returns the members of a material that this direction replaces, such as `pbrMetallicRoughness` and
   // `extensions/KHR_materials_ior`.
   virtual std::vector<std::string> replaced() const = 0;
   // Converts a material and fills in the report. Throws kInput with the reason of a failure.

@@ -10,7 +10,7 @@
 namespace remap {
 namespace {
 
-// This many images stay decoded, because materials in sequence often use the same two.
+// So many images stay decoded, because materials in sequence often use the same two.
 constexpr std::size_t kRecentImages = 2;
 
 // In these extensions, a texture refers to an image of another format. The most common extension comes first.
@@ -79,7 +79,7 @@ TextureInfo GltfImages::info_of(SpanValue texture_info) const {
 AssetImage GltfImages::load(const TextureInfo& info) {
   const std::vector<std::size_t> candidates = images_of_texture(textures_[info.texture]);
   if (candidates.empty())
-    throw input_error("texture " + std::to_string(info.texture) + " has no image that is known here");
+    throw input_error("texture " + std::to_string(info.texture) + " has no image in a known format");
   std::string reason;
   for (const std::size_t image : candidates) {
     if (const auto known = std::ranges::find(recent_, image, &AssetImage::image); known != recent_.end()) {

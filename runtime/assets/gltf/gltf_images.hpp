@@ -38,15 +38,16 @@ class GltfImages {
 
   // Reads a texture info. Throws kInput for an index or a transform that cannot be read.
   TextureInfo info_of(SpanValue texture_info) const;
-  // Loads the best image of a texture that can be decoded: the image of an extension, otherwise the texture's
-  // own. Throws kInput with the name of the image.
+  // Loads the first image of a texture that can be decoded. Images of extensions come first, and then the
+  // texture's own image. Throws kInput with the name of the image.
   AssetImage load(const TextureInfo& info);
   // Returns true if two textures repeat their images in the same way.
   bool wraps_alike(std::size_t texture, std::size_t other) const;
 
  private:
   const GltfBytes& bytes_;
-  // asked for the codec only when an image is loaded, because this takes time and many files have no images
+  // Its codec is requested only when an image is loaded, because this takes time, and many files have no
+  // images.
   const AssetResources& resources_;
   std::vector<SpanValue> textures_, samplers_;
   std::list<AssetImage> recent_;  // the newest first

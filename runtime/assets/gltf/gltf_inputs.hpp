@@ -28,7 +28,7 @@ enum class GltfInput : std::size_t {
   kDiffuse,
   kSpecGlossSpecular,
   kGlossiness,
-  // The following come from KHR_materials_specular, _ior, _clearcoat, _sheen and _transmission.
+  // The following come from KHR_materials_specular, KHR_materials_ior, _clearcoat, _sheen and _transmission.
   kSpecularColor,
   kSpecular,
   kIor,
@@ -47,21 +47,21 @@ struct GltfInputInfo {
   std::string_view factor;   // the member with the factor
   std::size_t count = 1;     // count of numbers in the factor; the fourth is opacity
   std::size_t channel = 0;   // channel of the texture, if the factor is one number
-  double usual = 1.0;        // the default of each number
+  double usual = 1.0;        // default of each number
   double least = 0.0, most = 1.0;
-  bool is_in_texture = false;  // the factor is a member of the texture
+  bool is_in_texture = false;  // true if the factor is a member of the texture
 };
 const GltfInputInfo& info_of(GltfInput input);
 std::span<const GltfInput> all_inputs();
 
-// A FactorText is a number as the file writes it, or after clamping.
+// A FactorText is a number. Its text is that of the file, or that of the clamped value.
 struct FactorText {
   double value = 1.0;
   std::string text = "1";
 };
 
 struct GltfValue {
-  std::array<FactorText, 4> factor;  // numbers beyond the count are 1
+  std::array<FactorText, 4> factor;  // numbers beyond `count` are 1
   bool is_stated = false;            // true if the file has the factor
   SpanValue texture;                 // the info of the texture, or empty
 };
@@ -89,7 +89,7 @@ bool has_textures(const GltfMaterial& material, std::span<const GltfInput> input
 // Returns the shortest text that reads back as the float.
 inline std::string float_text(float value) { return number_text(decimal_value(value)); }
 
-// Returns true if `own` equals `value`, up to the error of float arithmetic.
+// Returns true if `own` equals `value`, apart from rounding in floats.
 inline bool is_factor(float value, const FactorText& own) {
   return std::fabs(static_cast<double>(value) - own.value) < 1e-6;
 }

@@ -22,9 +22,9 @@ class GltfMaterialWriter {
       : json_(json), root_(json.root()), context_(context), images_(images), edits_(edits) {}
 
   void write(const MaterialEdit& edit, AssetMaterial& report);
-  // Adds new extensions to extensionsUsed. It removes extensions from both lists if nothing uses them any
-  // more, and if they are among `goers` or a material lost them. `removed` holds more values of removed
-  // extensions. Throws kInput if one of the lists is not a list.
+  // Adds new extensions to extensionsUsed. Removes an extension from both lists if nothing uses it any more,
+  // and if it is in `goers` or a material lost it. `removed` holds further values of removed extensions.
+  // Throws kInput if one of the lists is not a list.
   void update_lists(const std::set<std::string>& goers, const std::set<std::size_t>& removed);
 
  private:

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kNoSampler = std::numeric_limits<std::size_t>::max();
 constexpr std::string_view kPng = "image/png", kJpeg = "image/jpeg";
 
-// Removes `wanted` from `spares` and returns it if it is there. Otherwise does this with the first spare.
+// Removes `wanted` from `spares` and returns it. If it is not there, removes and returns the first spare.
 std::optional<std::size_t> take_spare(std::vector<std::size_t>& spares, std::optional<std::size_t> wanted) {
   if (spares.empty()) return std::nullopt;
   auto found = wanted ? std::ranges::find(spares, *wanted) : spares.end();
@@ -75,7 +75,7 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
     chunk_start_ = (tail_.kept.value_or(chunk->content_size()) + 3) / 4 * 4;
   for (std::size_t i = 0; i < new_images_.size(); ++i) {
     write_image(new_images_[i], i, edits);
-    new_images_[i].bytes = std::string();  // frees memory: the bytes are written, and may be many
+    new_images_[i].bytes = std::string();  // frees memory, because the bytes are written now
   }
   for (NewTexture& texture : new_textures_) write_texture(texture, edits);
   empty_spares(edits);
@@ -107,8 +107,7 @@ std::string GltfNewImages::free_uri(const std::string& model, const NewImage& im
   return stem + names_.free_ending(percent_decoded(stem), image.type == kJpeg ? ".jpg" : ".png");
 }
 
-// Adds a view of `bytes`. `own` is the old image that the new one replaces, or empty if the new image is
-// added.
+// Adds a view of `bytes`. If `own` is not empty, it is the old image that the new image replaces.
 std::size_t GltfNewImages::add_view(const std::string& bytes, SpanValue own, TextEdits& edits) {
   std::string& appended = tail_.appended;
   appended.append((4 - appended.size() % 4) % 4, '\0');
@@ -196,7 +195,8 @@ void GltfNewImages::drop_formats(SpanValue texture, TextEdits& edits) {
   for (const SpanValue& member : gone) edits.remove(member);
 }
 
-// Returns the view of another new image, which adds no bytes, or one texel if there is no view.
+// Returns the view of another new image, because this adds no bytes. If there is none, returns an image of
+// one texel.
 GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
@@ -205,8 +205,8 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
            "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel, kUsualPngLevel)) + "\""}};
 }
 
-// Empties spare places that no new image uses. An image must have bytes, and a view at least one byte, so
-// they refer to bytes that are in use.
+// Empties spare images and views that no new image uses. An image must have bytes, and a view at least one
+// byte. So they refer to bytes that other images use.
 void GltfNewImages::empty_spares(TextEdits& edits) {
   for (const std::size_t image : spares_.images) set_location(images_[image], cheapest_location(), edits);
   for (const std::size_t view : spares_.views) {

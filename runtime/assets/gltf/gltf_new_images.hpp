@@ -1,6 +1,6 @@
-// This file adds new images and textures to a glTF file. A new image is stored like its model: in the binary
-// chunk, in a URI, or in a file. New entries are appended, or replace entries that became free. No index
-// changes and no byte moves.
+// This file adds new images and textures to a glTF file. A new image is stored like the image that it is made
+// from: in the binary chunk, in a URI, or in a file. New entries are appended, or replace entries that are no
+// longer used. No index changes, and no other bytes move.
 #pragma once
 
 #include <cstddef>
@@ -34,11 +34,11 @@ class GltfNewImages {
   // earlier new image with equal bytes.
   std::size_t add_image(const ImagePixels& pixels, std::size_t model, std::string_view suffix,
                         std::optional<int> jpeg_quality, int png_level);
-  // Adds a texture of a new image with the sampler of its model, a texture of the file. Returns the number of
-  // the new texture, or the number of an equal one that was added before.
+  // Adds a texture of a new image. It has the sampler of `model`, a texture of the file. If an equal texture
+  // was added before, returns its number, otherwise the number of the new texture.
   std::size_t add_texture(std::size_t image, std::size_t model);
 
-  // Writes all new images. Call it once, at the end, because only then `spares` is complete.
+  // Writes all new images. Call this once, at the end, because `spares` is complete only then.
   void write(const GltfSpares& spares, TextEdits& edits);
   // Returns the texture info of a new texture. Call it after write().
   std::string info_text(const TextureText& texture) const;
@@ -83,7 +83,7 @@ class GltfNewImages {
   std::vector<NewTexture> new_textures_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_textures_;  // keyed by image and sampler
   GltfSpares spares_;                                                          // places that are free
-  std::set<std::size_t> unused_images_;  // spare images, whether they were reused or not
+  std::set<std::size_t> unused_images_;  // spare images, also those that were used again
   std::vector<std::size_t> image_places_;
   std::vector<Location> locations_;
   std::size_t image_count_ = 0, texture_count_ = 0, view_count_ = 0;

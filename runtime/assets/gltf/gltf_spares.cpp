@@ -95,8 +95,8 @@ class SpareFinder {
       if (!used.contains(image) && image < images_.size()) spares_.images.push_back(image);
   }
 
-  // Finds the views of spare images that nothing else uses. Any view that the JSON mentions elsewhere stays,
-  // even for compressed meshes.
+  // Finds the views that only spare images use. A view that the JSON mentions anywhere else stays, for
+  // example a view of a compressed mesh.
   void find_views() {
     Indices lost, used;
     std::set<std::size_t> spare_images;

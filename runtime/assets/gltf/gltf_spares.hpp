@@ -1,6 +1,6 @@
 // This file finds textures, images and views that only converted materials used, so that new ones can replace
-// them. It also finds the end of the bytes that are still in use. No index changes, because extras and other
-// programs may use indices.
+// them. It also finds the end of the bytes that are still in use. Indices do not change, because extras and
+// other programs may use them.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace remap {
 
 struct GltfSpares {
   std::vector<std::size_t> textures, images, views;  // sorted indices; the views are in the binary chunk
-  std::optional<std::uint64_t> chunk_end;  // end of the bytes still in use; if missing, nothing is cut
+  std::optional<std::uint64_t> chunk_end;            // end of the used bytes; if unset, nothing is cut off
 };
 
 // Finds the textures, images and views that nothing uses after the edits. If the file uses extensions that

@@ -32,7 +32,7 @@ void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) 
   }
 }
 
-// Returns the form that keeps diffuse as base color.
+// Returns the texts of a material that keeps diffuse as base color.
 CoreTexts texts_of_diffuse(const GltfMaterial& material) {
   CoreTexts texts;
   const GltfValue& diffuse = material[GltfInput::kDiffuse];
@@ -93,7 +93,7 @@ class SpecGlossToCore final : public GltfDirection {
     return texts_of_diffuse(material);
   }
 
-  // Returns the exact form of a material without specular color, in which only roughness needs a new image.
+  // Returns the exact result for a material without specular color. Only its roughness needs a new image.
   CoreTexts exact(const GltfMaterial& material, AssetMaterial& report) {
     CoreTexts texts = texts_of_diffuse(material);
     if (!has_textures(material, inputs_of(GltfWorkflow::kSpecGloss))) {

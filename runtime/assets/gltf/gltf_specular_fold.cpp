@@ -1,5 +1,5 @@
-// This file folds KHR_materials_specular and KHR_materials_ior into core. A single converter first converts
-// to spec-gloss, and from there to core by the projection.
+// This file folds KHR_materials_specular and KHR_materials_ior into core. The material is first converted to
+// spec-gloss, and from there to core by the projection. One converter does both.
 #include <memory>
 
 #include "assets/document/gltf_extensions.hpp"
@@ -27,7 +27,7 @@ class SpecularFold final : public GltfDirection {
   }
 
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
-    // These extensions also use the index to bend light, but core glTF always has the index 1.5.
+    // These extensions also use the index to bend light. Core glTF always has the index 1.5.
     for (const char* name : {"KHR_materials_volume", "KHR_materials_dispersion"})
       if (material["extensions"][name])
         throw input_error("has " + std::string(name) +

@@ -1,5 +1,5 @@
-// This file adds KHR_materials_pbrSpecularGlossiness to core materials. pbrMetallicRoughness stays, because
-// viewers that do not read the extension use it as fallback.
+// This file adds KHR_materials_pbrSpecularGlossiness to core materials. pbrMetallicRoughness stays for
+// viewers that do not read the extension.
 #include <array>
 #include <map>
 #include <memory>
@@ -109,7 +109,7 @@ class CoreToSpecGloss final : public GltfDirection {
 
   // Constant maps become factors of `material`.
   SpecGlossTexts texts_of(GltfWorkflow workflow, GltfMaterial& material, AssetMaterial& report) {
-    // The diffuse of a dielectric is its base color, by the conventions of both workflows.
+    // By the conventions of both workflows, a dielectric's diffuse is its base color.
     const bool keeps_base = material.number(GltfInput::kMetallic) == 0.0;
     std::span<const GltfInput> inputs = inputs_of(workflow);
     if (has_textures(material, inputs)) {

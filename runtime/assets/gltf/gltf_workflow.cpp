@@ -53,7 +53,7 @@ std::optional<Parameter> parameter_of(GltfInput input) {
   }
 }
 
-// Returns the F0 of the index times the color, which may exceed 1.
+// Returns the F0 of the index times the color. It may exceed 1.
 std::array<double, 3> unlimited_f0(const GltfMaterial& material) {
   std::array<double, 3> f0 = material.color(GltfInput::kSpecularColor);
   for (double& value : f0) value *= f0_of_index(material.number(GltfInput::kIor));

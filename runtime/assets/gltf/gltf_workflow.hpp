@@ -37,13 +37,14 @@ MaterialValues values_of(GltfWorkflow workflow, const GltfMaterial& material);
 // Returns the factors times the first texel of each texture.
 MaterialValues first_values_of(GltfWorkflow workflow, GltfMaterial material, const UsedTextures& used);
 
-// A GltfMaps holds a material's maps for a converter. At least one varies. `used` must outlive it.
+// A GltfMaps holds the maps of a material in the form that a converter reads. At least one of them varies.
+// `used` must outlive it.
 struct GltfMaps {
   GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const UsedTextures& used);
   GltfMaps(const GltfMaps&) = delete;
   GltfMaps& operator=(const GltfMaps&) = delete;
 
-  // New images have the size, type and place of these models.
+  // New images have the size, pixel type and storage of these images.
   const UsedTexture& color_model;
   const UsedTexture& data_model;
   MapSources sources;
@@ -53,11 +54,11 @@ struct GltfMaps {
   ImagePixels f0_;  // only for kDielectric
 };
 
-// Returns `textures`, which read images. Throws kInput if they are null.
+// Returns `textures`, which read images. Throws kInput if `textures` is null.
 MaterialTextures& require_images(MaterialTextures* textures);
 
-// Loads the textures of the given inputs by MaterialTextures::load(). Returns nothing if all maps are
-// constant. `material` then has them as factors. Throws kInput if no images can be read.
+// Loads the textures of the given inputs by MaterialTextures::load(). If all maps are constant, returns
+// nothing, and `material` has their values as factors. Throws kInput if no images can be read.
 std::optional<UsedTextures> used_textures(MaterialTextures* textures, GltfMaterial& material,
                                           std::span<const GltfInput> inputs, const GridReason& reason,
                                           std::vector<std::string>& warnings);

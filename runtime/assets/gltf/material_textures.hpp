@@ -24,7 +24,7 @@ struct UsedTexture {
   Transfer transfer = Transfer::kSrgb;  // curve of its colors
   TextureInfo info;
   AssetImage image;
-  std::string bake;  // describes how its pixels were resampled, or is empty
+  std::string bake;  // how its pixels were resampled, or empty
 
   const ImagePixels& pixels() const { return *image.pixels; }
   // Returns the name in messages, such as `specular glossiness`.
@@ -38,7 +38,7 @@ struct UsedTextures {
   // Returns null for an input without a texture.
   const UsedTexture* of(GltfInput input) const;
   const ImagePixels* pixels_of(GltfInput input) const;
-  // Returns the texture of the first input that has one. At least one must have a texture.
+  // Returns the texture of the first of these inputs that has one. There must be such an input.
   const UsedTexture& first_of(std::span<const GltfInput> inputs) const;
   // Returns a text that identifies the content of the images: their indices, and how they were resampled.
   std::string key() const;
@@ -46,12 +46,11 @@ struct UsedTextures {
 
 // A GridReason states why textures must lie on one grid, for messages.
 struct GridReason {
-  std::string_view decided;  // the parameters that need all textures at once, such as `metallic`
-  // an option that makes the grid unnecessary, such as `, or --extensions`; may be empty
+  std::string_view decided;  // parameters that need all textures at once, such as `metallic`
   std::string_view otherwise;
 };
 
-// A MaterialTextures serves all materials of a file.
+// A MaterialTextures loads and adds textures for all materials of a file.
 class MaterialTextures {
  public:
   // All arguments must outlive this object.
@@ -65,8 +64,9 @@ class MaterialTextures {
   }
   // Throws kInput for an image that cannot be read.
   UsedTexture load(SpanValue texture_info, GltfInput input);
-  // Loads the textures of the inputs and gives them one size and one grid, as far as the options allow. Maps
-  // of one value become factors of `material`. Throws kInput if this fails.
+  // Loads the textures of the inputs. If they differ in size or place, brings them to one size and one grid,
+  // as far as the options allow. Maps of one value become factors of `material`. Throws kInput if this is not
+  // possible.
   UsedTextures load(GltfMaterial& material, std::span<const GltfInput> inputs, const GridReason& reason,
                     std::vector<std::string>& warnings);
 

@@ -13,19 +13,19 @@ namespace remap {
 
 // A MapSources holds the maps of a conversion, all of one size. At least one is given.
 struct MapSources {
-  MapConversion conversion;            // its sources and their encoding of roughness must be set
+  MapConversion conversion;            // its sources and their roughness encoding must be set
   const ImagePixels* color = nullptr;  // diffuse or base color, in sRGB; may be null
   std::array<double, 3> color_factors = {1.0, 1.0, 1.0};
-  const ImagePixels* color_model = nullptr;  // size and type of the results
+  const ImagePixels* color_model = nullptr;  // image whose size and pixel type the results have
   const ImagePixels* data_model = nullptr;
 };
 
 // A MetalRoughMaps holds maps of core glTF.
 struct MetalRoughMaps {
-  // This map is sRGB, with the alpha of the color map. It is missing if the color map times the factor gives
+  // This map is sRGB, with the alpha of the color map. It is unset if the color map times the factor equals
   // base color within 1/255.
   std::optional<ImagePixels> base_color;
-  std::optional<ImagePixels> metal_rough;   // packed as in glTF; missing if both are constant
+  std::optional<ImagePixels> metal_rough;   // packed as in glTF; unset if both are constant
   float metallic = 1.0f, roughness = 1.0f;  // factors
   bool has_metal = false;                   // true if metallic is above 0 anywhere
   double residual = 0.0;  // root mean square of Parameter::kResidual, over a sample of texels
@@ -35,22 +35,22 @@ MetalRoughMaps metal_rough_maps(const Converter& converter, MapSources sources);
 
 // A SpecGlossMaps holds maps of KHR_materials_pbrSpecularGlossiness.
 struct SpecGlossMaps {
-  // This map is sRGB, with the alpha of the color map. It is missing if diffuse is a factor, or the color map
-  // times a factor.
+  // This map is sRGB, with the alpha of the color map. It is unset if diffuse is a factor, or if it is the
+  // color map times a factor.
   std::optional<ImagePixels> diffuse;
   bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
-  float alpha = 1.0f;        // alpha of a color map that a factor replaces
+  float alpha = 1.0f;        // alpha of a color map that became a factor
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
-  // specular in sRGB, with glossiness as alpha; missing if both are factors
+  // Specular in sRGB, with glossiness as alpha. It is unset if both are factors.
   std::optional<ImagePixels> specgloss;
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
   float glossiness = 1.0f;
 };
 
-// `first` is the converted material of the first texel. Constant results get their factors from it.
+// `first` is the conversion of the first texel. Results that are constant get their factors from it.
 SpecGlossMaps specgloss_maps(const Converter& converter, MapSources sources, const MaterialValues& first);
 
-// Returns roughness as green, from the glossiness in alpha times its factor.
+// Returns a map with roughness in green. It is made from the glossiness in alpha times its factor.
 ImagePixels roughness_map(const ImagePixels& specgloss, double glossiness);
 
 // Returns the F0 of dielectrics (KHR_materials_specular, _ior): min(1, `most` * color) * factor * alpha of

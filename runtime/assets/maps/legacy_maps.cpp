@@ -74,7 +74,7 @@ Converter legacy_converter(bool as_dielectric) {
           {make_stage([as_dielectric](Block& block) { convert_legacy(as_dielectric, block); })}};
 }
 
-// Returns the channel of a map that holds the exponent, as floats.
+// Returns the exponent's channel of a map, as floats.
 ImagePixels exponents_of(const LegacyMaps& maps) {
   ImagePixels result{maps.exponent->width, maps.exponent->height, 1, PixelType::kFloat, {}};
   result.bytes.resize(result.width * result.height * sizeof(float));

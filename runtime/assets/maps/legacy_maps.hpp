@@ -20,17 +20,17 @@ struct LegacyMaps {
 };
 
 struct LegacyMapResult {
-  // sRGB; missing if base color is `base`, or the diffuse map times `base`
+  // In sRGB. It is unset if base color is `base`, or the diffuse map times `base`.
   std::optional<ImagePixels> base_color;
   bool keeps_diffuse = false;  // true if base color is the diffuse map times `base`, within 1/255
   std::array<double, 3> base = {1.0, 1.0, 1.0};
-  std::optional<ImagePixels> metal_rough;  // packed as in glTF; missing if both are constant
+  std::optional<ImagePixels> metal_rough;  // packed as in glTF; unset if both are constant
   double metallic = 1.0, roughness = 1.0;  // factors
-  // for a dielectric: F0 / F in sRGB, with F / `specular_factor` as alpha
+  // Only for a dielectric. The color is F0 / F in sRGB, and alpha is F / `specular_factor`.
   std::optional<ImagePixels> specular;
-  // for a dielectric: F; if there is a map, the largest F, and alpha is a fraction of it
+  // Only for a dielectric. It is F, or with a map the largest F, of which alpha is a fraction.
   double specular_factor = 0.0;
-  std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // for a dielectric: F0 / F; 1 with a map
+  std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // for a dielectric: F0 / F; 1 if there is a map
 };
 
 LegacyMapResult converted_maps(const LegacyMaps& maps);
@@ -50,7 +50,8 @@ ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, boo
 // Replaces a channel by the values that load_scalar_row() loads from another map of the same size.
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// Loads `count` values of row `y`, from 0 to 1. They come from MTL's channel for scalar maps (-imfchan).
+// Loads `count` values of row `y`, from 0 to 1. They come from the channel that MTL gives for maps of one
+// value (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 
 }  // namespace remap

@@ -57,8 +57,8 @@ MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse) {
 }
 
 LegacyDielectric dielectric_of_legacy(const LegacyMaterial& material) {
-  // Limits the transmitted light from below. Without a limit, a mirror would leave no light for diffuse. This
-  // was not measured for mirrors.
+  // At least this fraction of light is transmitted to the diffuse lobe. Otherwise, a mirror would leave no
+  // light for it. This was not measured for mirrors.
   constexpr double kLeastTransmitted = 0.02;
   const GgxLobe lobe = ggx_lobe(material);
   LegacyDielectric result;

@@ -44,10 +44,10 @@ MetalRoughFactors core_of_diffuse(const std::array<double, 3>& diffuse);
 // A LegacyDielectric is glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the
 // largest F0, because the source has no Fresnel effect.
 struct LegacyDielectric {
-  std::array<double, 3> base_color{};      // min(1, diffuse / (1 - specular)), 0 to 1
-  double specular = 0.0;                   // specularFactor: the largest F0, 0 to 1
-  std::array<double, 3> specular_color{};  // F0 / specular, 0 to 1; specularColorFactor is
-                                           // kDielectricScale times it
+  std::array<double, 3> base_color{};  // min(1, diffuse / (1 - specular)), 0 to 1
+  double specular = 0.0;               // specularFactor: the largest F0, 0 to 1
+  // F0 / specular, 0 to 1. specularColorFactor is kDielectricScale * specular_color.
+  std::array<double, 3> specular_color{};
   double roughness = 1.0;
 };
 inline constexpr double kDielectricScale = 25.0;  // 1 / .04

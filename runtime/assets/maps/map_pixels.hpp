@@ -27,7 +27,7 @@ ImagePixels blank_like(const ImagePixels& model, std::size_t channels);
 // Returns true if every texel equals the first.
 bool is_constant(const ImagePixels& pixels);
 
-// Returns true if the values of a channel are within a step of 8 bits.
+// Returns true if the values of a channel differ by at most a step of 8 bits.
 bool hardly_varies(const ImagePixels& pixels, std::size_t channel);
 
 // Returns the first texel as stored, 0 to 1: red, green, blue and alpha. Grey is repeated, and a missing
@@ -59,10 +59,10 @@ struct NormalShares {
   // Returns true if a map of heights or normals holds normals of tangent space. Heights are grey.
   bool are_normals() const;
 };
-// Measures three planes of one size.
+// Measures three channels of the same size.
 NormalShares normal_shares(const std::array<std::span<const float>, 3>& rgb);
 
-// Returns are_normals() for an even grid of texels.
+// Returns the result of are_normals() for texels of an even grid.
 bool holds_normals(const ImagePixels& pixels);
 
 // Copies the alpha channel. Both images must have one.

@@ -1,4 +1,4 @@
-// This file brings maps of one material with different KHR_texture_transform onto one grid.
+// This file brings the maps of a material onto one grid, if they have different KHR_texture_transform.
 #pragma once
 
 #include <cstddef>
@@ -23,16 +23,16 @@ struct TextureGrid {
   TextureTransform transform;
 };
 
-// A CommonGrid is the grid for all textures. `of` is the index of the texture whose place the grid has.
+// A CommonGrid is the grid for all textures. `of` is the index of the texture that lies as the grid does.
 struct CommonGrid {
   std::size_t of = 0;
   TextureGrid grid;
-  bool repeats = true;  // false if it needs mesh coordinates within 0 to 1
+  bool repeats = true;  // false if coordinates of the mesh must be within 0 to 1
 };
 
-// Chooses the grid of the texture that repeats least, if all others repeat in it an integer number of times.
-// Otherwise it chooses a texture that covers coordinates from 0 to 1 without a repeat. Returns the place of
-// that texture, or nothing if there is none. Texels of the grid are as small as the smallest texels of any
+// Chooses the grid. It is that of the texture that repeats least, if all others repeat in it an integer
+// number of times. Otherwise, it is that of a texture that covers coordinates from 0 to 1 without a repeat.
+// Returns nothing if there is no such texture. Texels of the grid are as small as the smallest texels of any
 // texture. A side has at most 4096 texels, or as many as the largest image.
 std::optional<CommonGrid> common_grid(const std::vector<TextureGrid>& textures);
 

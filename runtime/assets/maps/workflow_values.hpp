@@ -1,4 +1,4 @@
-// This file converts materials of assets without maps, and returns factors of core glTF.
+// This file converts materials of assets that have no maps, and returns factors of core glTF.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace remap {
 
 using MaterialValues = std::map<Parameter, std::vector<float>>;  // one value, or red, green and blue
 
-// Returns all targets of the converter from all its sources, converted like texels of maps.
+// Converts all sources of the converter to all its targets, in the same way as texels of maps.
 MaterialValues converted(const Converter& converter, const MaterialValues& material);
 
 // Makes a converter between workflow models (`gltf`, `gltf-specgloss`), with roughness at both ends. With

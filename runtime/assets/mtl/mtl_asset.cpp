@@ -25,7 +25,7 @@
 namespace remap {
 namespace {
 
-// Colors within this distance are equal. Arithmetic of floats changes a color by less.
+// Colors that differ by less are equal. Rounding in floats changes a color by less.
 constexpr double kSameColor = 1e-6;
 
 std::string float_text_of(double value) { return float_text(static_cast<float>(value)); }
@@ -34,8 +34,8 @@ std::string color_text(const std::array<double, 3>& color) {
   return float_text_of(color[0]) + " " + float_text_of(color[1]) + " " + float_text_of(color[2]);
 }
 
-// Changes a prefix of file names so that no part of it looks like an option of a map, as in `wood -s 2 2`. A
-// backslash would separate folders.
+// Changes a prefix of file names, so that no part of it looks like an option of a map, as in `wood -s 2 2`.
+// Also replaces backslashes, because they would separate folders.
 std::string argument_prefix(std::string prefix) {
   for (std::size_t i = 0; i < prefix.size(); ++i) {
     const bool begins_word = i == 0 || prefix[i - 1] == ' ';
@@ -77,7 +77,7 @@ std::string placing_options(const MtlSurface& surface) {
   return "";
 }
 
-// Returns the arguments of a line that names the file of `map` again.
+// Returns arguments that name the file of `map` again, with its options.
 std::string arguments_of(const MtlMap& map) {
   std::string text = placing_options(map);
   if (map.has_levels()) text += "-mm " + number_text(map.base) + " " + number_text(map.gain) + " ";
@@ -155,8 +155,8 @@ class BlockEditor {
 
   void add(const std::string& line) { added_.push_back(line); }
 
-  // Inserts lines after the last statement, with the same indentation. If the text had no line ending at its
-  // end, it still has none.
+  // Inserts lines after the last statement, with its indentation. If the text did not end with a line ending,
+  // it still does not.
   void append() {
     const MtlStatement& last = statement(surface_.last_statement);
     const std::string indentation = indentation_of(last);
@@ -170,8 +170,7 @@ class BlockEditor {
     splices_.push_back({{last.ending.end, last.ending.end}, text});
   }
 
-  // Returns the indentation of the last line of a statement, because a backslash may join earlier lines to
-  // it.
+  // Returns the indentation of the last line of a statement. A backslash may join earlier lines to this line.
   std::string indentation_of(const MtlStatement& statement) const {
     const std::string_view before = document_.raw({statement.line.begin, statement.word.begin});
     const std::size_t start = before.find_last_of("\r\n");
@@ -291,7 +290,7 @@ class MtlEditor {
     return is_constant(channel_of(pixels, channel));
   }
 
-  // Adds an image, named after and next to the map that it is most like.
+  // Adds an image. Its name comes from the map that it is made from, and it is stored beside this map.
   std::string add_image(const ImagePixels& pixels, const MtlSurface& surface, std::string_view suffix) {
     const bool is_color = suffix == "_baseColor";
     const std::optional<MtlMap>& model = is_color && surface.diffuse_map ? surface.diffuse_map

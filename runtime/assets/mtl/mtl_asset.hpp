@@ -15,8 +15,8 @@ namespace remap {
 AssetConversion convert_mtl(const ByteSource& source, const std::string& context,
                             const AssetOptions& options = {}, const AssetResources* resources = nullptr);
 
-// Returns the images that the file refers to, each once. With `resources`, paths are where the images are
-// found. Throws kInput, beginning with `context`.
+// Returns the images that the file uses, each once. If `resources` is not null, paths are where the images
+// are found. Throws kInput, beginning with `context`.
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources = nullptr);
 

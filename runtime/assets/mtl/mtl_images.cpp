@@ -110,7 +110,8 @@ std::optional<std::string> MtlImages::find(const std::string& file, std::vector<
 std::optional<std::string> MtlImages::place_of(const std::string& file) {
   std::vector<std::string> ignored;
   if (const auto found = find(file, ignored)) return found;
-  // If the path of a missing file begins with `..`, nobody knows whether it lies in the allowed folder.
+  // If the path of a missing file begins with `..`, it is unknown whether the file would lie in the allowed
+  // folder.
   if (const auto path = relative_path(folder_, file); path && !path->starts_with("../")) return path;
   return relative_path("", file_name_of(file));
 }

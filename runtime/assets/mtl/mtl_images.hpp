@@ -31,20 +31,20 @@ class MtlImages {
   MtlImages(const AssetResources* resources, std::string folder)
       : resources_(resources), folder_(std::move(folder)) {}
 
-  // Returns where the image of a map lies, relative to the asset. If a name is absolute or cannot be read, it
-  // looks for the file name beside the MTL file or the asset, and appends a warning. Returns nothing if no
-  // file is found.
+  // Returns the path of a map's image, relative to the asset. If the path in the MTL file is absolute or
+  // cannot be read, looks for a file of this name beside the MTL file and beside the asset, and adds a
+  // warning. Returns nothing if there is no such file.
   std::optional<std::string> find(const std::string& file, std::vector<std::string>& warnings);
-  // Works like find(), but if the file is missing, it returns the path where it would have to be. Returns
-  // nothing if the name cannot be a file.
+  // Works like find(). If the file is missing, returns the path that it would have. Returns nothing if the
+  // name cannot be a file.
   std::optional<std::string> place_of(const std::string& file);
 
   // Returns the bytes of a file that find() found. Throws kInput.
   std::string bytes_of(const std::string& path) const;
-  // Returns its pixels. The last few images stay decoded.
+  // Returns the pixels of a file. The last few images stay decoded.
   std::shared_ptr<const ImagePixels> load(const std::string& path);
-  // Calls find(). Throws kInput, with the text of the map, if the file is missing or if the map has options
-  // that change its look.
+  // Calls find(). Throws kInput, with the text of the map, if the file is missing, or if options of the map
+  // would change how it looks.
   std::string require(const MtlMap& map, std::vector<std::string>& warnings);
   // Loads a map of a surface by require() and load(), and applies its option -mm.
   std::shared_ptr<const ImagePixels> load(const MtlMap& map, std::vector<std::string>& warnings);
@@ -69,7 +69,7 @@ bool is_there(const AssetResources& resources, const std::string& path);
 LegacyMaps load_maps(const MtlSurface& surface, const LegacyMaterial& factors, MtlImages& images,
                      const AssetOptions& options, std::vector<std::string>& warnings);
 
-// Returns the key of a conversion of maps: their names, options and factors.
+// Returns a key for a conversion of maps. It consists of the names, options and factors.
 std::string key_of(const MtlSurface& surface, const LegacyMaterial& factors);
 
 // Returns a warning `map_Ns shine.png is read as ...`, because tools disagree with the specification.

@@ -35,7 +35,7 @@ void MtlLibraries::read(const std::vector<std::string>& lines, const std::string
     std::size_t found = 0;
     for (const std::string& name : parts_between(line, ' ')) {
       if (name.empty()) continue;
-      // The file may lie next to the OBJ file, although its name gives another folder.
+      // The file may lie beside the OBJ file, even if its name has another folder.
       if (read_file(name, warnings) || read_file(file_name_of(name), warnings))
         ++found;
       else

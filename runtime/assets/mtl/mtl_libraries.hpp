@@ -37,13 +37,13 @@ class MtlLibraries {
   MtlLibraries(const AssetResources& resources, std::optional<MtlMaker> maker)
       : resources_(resources), maker_(maker) {}
 
-  // Reads the files of the lines `mtllib`. A line has one name with spaces, or several names. If no file
-  // exists, it reads the MTL file with the name of the OBJ file `obj`. Appends a warning for a missing file,
+  // Reads the files of the lines `mtllib`. A line has either one name with spaces, or several names. If no
+  // file exists, reads the MTL file with the name of the OBJ file `obj`. Adds a warning for a missing file,
   // and for a file whose maker gives statements another meaning. Throws kInput for a file that cannot be
   // read.
   void read(const std::vector<std::string>& lines, const std::string& obj,
             std::vector<std::string>& warnings);
-  // Returns a material by its name. If several have the name, it returns the first one.
+  // Returns a material by its name. If several materials have this name, returns the first.
   std::optional<Entry> find(const std::string& material) const;
   // Returns true if Tr is 1 in every material and d in none. By the specification, Tr 1 means invisible, but
   // MeshLab writes Tr 1 for opaque materials.

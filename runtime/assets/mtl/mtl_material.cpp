@@ -17,7 +17,7 @@ enum class OptionArguments { kWord, kNumbers };
 struct MapOption {
   std::string_view name;
   OptionArguments arguments;
-  std::size_t most;  // greatest number of numbers
+  std::size_t most;  // largest number of arguments
 };
 constexpr std::array<MapOption, 14> kMapOptions = {{{"-s", OptionArguments::kNumbers, 3},
                                                     {"-o", OptionArguments::kNumbers, 3},
@@ -149,7 +149,7 @@ class StatementReader {
 
   double number(const MtlStatement& statement, double least, double most, const char* expected) const {
     const std::vector<TextSpan> words = document_.words(statement);
-    // `d -halo 0.5` depends on the angle, which is ignored.
+    // With `d -halo 0.5`, opacity depends on the angle. Only the number is used.
     const bool has_option = words.size() > 1 && in_lower_case(document_.raw(words.front())) == "-halo";
     const std::size_t index = has_option ? 1 : 0;
     const std::optional<double> value = index < words.size() ? finite(words[index]) : std::nullopt;
@@ -193,8 +193,8 @@ std::optional<MtlMap> map_at(const MtlDocument& document, std::size_t statement)
 constexpr std::array<double, 3> kUnused = {1.0, 1.0, 1.0};  // replaces a number that a map multiplies
 
 // Applies Blender's rules for materials of its Principled BSDF. Roughness is 1 - sqrt(Ns / scale). Metallic
-// is Ka if illum is 3 or 6, or if Ka is not 1. Ks is the specular level, of which 0.5 means F0 0.04. map_Ns
-// holds roughness and map_refl metallic. If there is a map, the number is not used.
+// is Ka if illum is 3 or 6, or if Ka is not 1. Ks is the specular level, and a level of 0.5 means F0 0.04.
+// map_Ns holds roughness, and map_refl metallic. If there is a map, its number is not used.
 void apply_blender(double scale, MtlSurface& surface) {
   if (surface.diffuse_map) surface.diffuse = kUnused;
   if (!surface.roughness) {
@@ -223,7 +223,8 @@ void apply_nvdiffrec(MtlSurface& surface) {
   surface.metallic_map->channel = 'b';
 }
 
-// Replaces values of the specification by the maker's metallic and roughness. Pr, Pm and their maps stay.
+// Replaces metallic and roughness by what the maker of the file wrote in other statements. Pr, Pm and their
+// maps stay.
 void apply_maker(MtlMaker maker, MtlSurface& surface) {
   switch (maker) {
     case MtlMaker::kText:
@@ -299,8 +300,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   if (exponent) attempt([&] { surface.exponent = reader.exponent(document.statements()[*exponent]); });
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {
-    // In a real material, Kd 0 would make the map black. Exporters write this number because the map replaces
-    // it.
+    // Taken literally, Kd 0 would make the map black. Exporters write 0 because the map replaces this number.
     warnings.emplace_back("Kd is 0, which would make map_Kd black: 1 is used instead");
     surface.diffuse = kUnused;
   }

@@ -29,7 +29,7 @@ struct MtlMap {
   char channel = '\0';                                            // -imfchan, or 0
   double base = 0.0, gain = 1.0;     // -mm: base + gain times a stored value, kept within 0 to 1
   std::vector<TextSpan> levels;      // places of -mm and of the white space after it
-  bool is_color = false;             // if false, all channels are data, also alpha
+  bool is_color = false;             // if false, all channels are data, alpha too
   std::vector<std::string> unusual;  // options that change the look, and are not applied
 
   // Returns true if both maps lie in the same place on the surface.
@@ -43,8 +43,8 @@ struct MtlMap {
 // Reads the file of a statement. Options may also follow the name, as some tools write them.
 MtlMap read_mtl_map(const MtlDocument& document, std::size_t statement);
 
-// An MtlSurface holds what reflects light. If a statement is repeated, the last one is used, as in other
-// programs.
+// An MtlSurface holds the properties that reflect light. If a statement occurs several times, the last one is
+// used, as in other programs.
 struct MtlSurface {
   std::optional<std::array<double, 3>> diffuse, specular;  // Kd, Ks, clamped to 0 and 1
   std::optional<double> exponent;                          // Ns, at most 10000; may be below 0
@@ -54,8 +54,8 @@ struct MtlSurface {
   std::optional<double> specular_level;  // 1 means F0 0.04; only set for makers that write such a level
   std::optional<MtlMap> diffuse_map, specular_map, exponent_map, reflection_map, roughness_map, metallic_map;
   bool has_pbr_bsdf = false;                     // bsdf pbr
-  bool is_metal_rough = false;                   // Pr, Pm or the maker give metallic and roughness
-  std::optional<std::size_t> diffuse_statement;  // statement Kd; makers have different defaults without it
+  bool is_metal_rough = false;                   // true if Pr, Pm or the maker give metallic and roughness
+  std::optional<std::size_t> diffuse_statement;  // statement Kd; without it, makers have different defaults
   std::size_t last_statement = 0;                // last statement of the material
 
   bool is_empty() const {
@@ -89,8 +89,8 @@ struct MtlCover {
 MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
 
-// A MetalRoughNumbers holds a surface with metallic and roughness as numbers. If there is a map of roughness
-// or metallic, its number is 1, and the number in the file is ignored.
+// A MetalRoughNumbers holds metallic and roughness of a surface as numbers. If one of them has a map, its
+// number is 1, and the number in the file is ignored.
 struct MetalRoughNumbers {
   std::array<double, 3> base = {1.0, 1.0, 1.0};
   double metallic = 0.0, roughness = 1.0;
@@ -99,7 +99,7 @@ struct MetalRoughNumbers {
 // becomes rough.
 MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
 
-// An MtlReflection is the surface as factors, which its maps multiply.
+// An MtlReflection holds the factors of a surface. Maps are multiplied by them.
 struct MtlReflection {
   LegacyMaterial factors;
   bool has_highlight = false;

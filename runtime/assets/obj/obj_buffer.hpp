@@ -1,4 +1,5 @@
-// This file builds the only buffer of a glTF file that is made from other files, and its views.
+// This file builds the buffer of a new glTF file, and the views into this buffer. Such a file has only one
+// buffer.
 #pragma once
 
 #include <cstddef>

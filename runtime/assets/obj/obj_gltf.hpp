@@ -9,8 +9,8 @@
 namespace remap {
 
 struct GltfOutput {
-  bool as_glb = true;         // one file, otherwise .gltf with a buffer beside it
-  std::string name = "mesh";  // name of a .gltf's buffer, without its extension
+  bool as_glb = true;         // writes one .glb file; otherwise a .gltf with a buffer beside it
+  std::string name = "mesh";  // name of the buffer of a .gltf, without its extension
 };
 
 // Converts meshes by tinyobjloader (obj_mesh.hpp), with a node for each group or object. Converts materials

@@ -77,7 +77,7 @@ struct ObjMaterials::MaterialDraft {
   bool keeps_file = false;
   std::shared_ptr<const ImagePixels> base_pixels;
   std::size_t base_image = kNoImage;    // index of an image in the file
-  std::size_t* shared_image = nullptr;  // where other materials find the index of this image
+  std::size_t* shared_image = nullptr;  // place where other materials find the index of this image
   Json core = Json::object(), material = Json::object();
   bool blends = false;
 
@@ -358,8 +358,8 @@ void ObjMaterials::set_converted_maps(MaterialDraft& draft, const MtlReflection&
   set_extension(draft, kSpecularExtension, std::move(specular));
 }
 
-// Materials with the same maps, factors and opacity share the result. The base color of the first one is in
-// `draft`, so that opacity is added before it goes into the file.
+// Materials with the same maps, factors and opacity share the result. For the first of them, `draft` has the
+// base color, so that opacity can be added before the image is stored.
 ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& draft,
                                                               const MtlReflection& reflection,
                                                               bool as_dielectric, const MtlMap& data_map) {
@@ -405,7 +405,7 @@ void ObjMaterials::set_opacity(MaterialDraft& draft) {
   const bool has_map = draft.base_map != nullptr || opacity_map;
   if (!draft.blends || draft.base_image != kNoImage || !has_map) return;
   if (draft.base_pixels == nullptr) {
-    // Other materials may combine the same two files, so the result is stored.
+    // Other materials may combine the same two files, so keep the result.
     const std::string key =
         draft.library.images.folder() + '\0' +
         (draft.base_map != nullptr ? draft.base_map->file + '\0' + draft.base_map->options : "") + '\0' +
@@ -435,7 +435,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
-  // In many materials, one file is both color and opacity. The file then stays unchanged.
+  // Many materials use one file for both color and opacity. Such a file stays unchanged.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
     if (!options_.enlarges)

@@ -31,7 +31,7 @@ class ObjMaterials {
 
   // Returns the materials of an OBJ file in their order. A material that no file defines is white.
   std::vector<SceneMaterial> converted(const std::vector<std::optional<std::string>>& names);
-  // Returns the extensions of materials that are used.
+  // Returns the extensions that materials use.
   const std::set<std::string>& extensions() const noexcept { return extensions_; }
 
  private:

@@ -89,13 +89,12 @@ class ObjLines {
   std::string_view line_, word_, rest_;
 };
 
-// An ObjStream rewrites an OBJ file for the importer, which has two limits: it ends names of materials at a
-// space, and it makes one shape of each whole group. Materials and groups become numbers, large groups are
-// cut, and lines without geometry are dropped.
+// An ObjStream rewrites an OBJ file for the importer (tinyobjloader), which has two limits. It ends the name
+// of a material at a space, and it makes one shape of each whole group. So names of materials and groups
+// become numbers, large groups are cut, and lines without geometry are dropped.
 class ObjStream final : public std::streambuf {
  public:
-  // The stream calls `take` before it makes more lines, so that `take` can free earlier results of the
-  // importer.
+  // The stream calls `take` before it makes more lines. `take` can then free results of the importer.
   ObjStream(const ByteSource& source, const std::string& context, ObjScene& scene, std::function<void()> take)
       : lines_(source, context), context_(context), scene_(scene), take_(std::move(take)) {
     materials_.emplace_back();
@@ -200,7 +199,7 @@ class ObjStream final : public std::streambuf {
       for (std::size_t i = 2; i < corners_.size(); ++i)
         ((((((made_ += "f ") += corners_[0]) += ' ') += corners_[i - 1]) += ' ') += corners_[i]) += '\n';
     }
-    // Cuts only if all vertices of the faces are known, because the importer triangulates the faces at a cut.
+    // Cut only if all vertices of the faces are known, because at a cut, the importer triangulates the faces.
     if (++faces_ >= kMostFacesOfPart && farthest_ <= vertices_) begin_group();
   }
 
@@ -215,7 +214,8 @@ class ObjStream final : public std::streambuf {
     }
   }
 
-  // Returns the vertex index of a corner if the index is positive, so that it counts from the first vertex.
+  // Returns the vertex index of a corner if the index is positive. Negative indices count from the last
+  // vertex.
   static std::size_t vertex_of(std::string_view corner) {
     std::size_t number = 0;
     const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);
@@ -303,7 +303,7 @@ class CornerSet {
   }
 
   std::vector<ObjCorner> corners_;
-  std::vector<std::uint32_t> slots_;  // numbers of corners; each is at the place of its hash, or after it
+  std::vector<std::uint32_t> slots_;  // numbers of corners, each at the place of its hash or after this place
 };
 
 using Vector = std::array<double, 3>;
@@ -386,8 +386,8 @@ class PrimitiveMaker {
       primitive_.normals.push_back(is_given ? static_cast<float>(part / length) : 0.0f);
   }
 
-  // Replaces a missing or zero normal by the normal of the faces around it. Products of edges are
-  // proportional to the triangles' areas.
+  // Replaces a missing or zero normal by the mean normal of the faces around it. The weight of a face is its
+  // area, because products of edges are proportional to it.
   void fill_normals() {
     std::vector<Vector> sums(primitive_.vertex_count());
     for (std::size_t i = 0; i + 2 < primitive_.indices.size(); i += 3) {
@@ -447,7 +447,7 @@ class ObjReader {
  private:
   void load() {
     std::istream stream(&stream_);
-    stream.exceptions(std::ios::badbit);  // without this, the stream would ignore exceptions while reading
+    stream.exceptions(std::ios::badbit);  // otherwise, the stream would ignore exceptions while it reads
     NumberedMaterials materials;
     std::vector<tinyobj::material_t> none;
     std::string warning, fault;
@@ -499,7 +499,7 @@ class ObjReader {
     for (ObjPart& part : groups_.back().parts) part.corners.finish();
   }
 
-  // Numbers the materials that faces use.
+  // Returns the number of a material in the scene. Adds the material if no face has used it before.
   std::size_t used_material(int number) {
     const auto [entry, is_new] = used_.try_emplace(number, scene_.materials.size());
     if (is_new) scene_.materials.push_back(stream_.material(static_cast<std::size_t>(number)));

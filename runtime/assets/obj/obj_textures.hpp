@@ -35,11 +35,12 @@ class GltfTextures {
 
   // Reserves a path, so that no new image gets it.
   void take(const std::string& path) { names_.take(path); }
-  // Adds the image of a map, each file once. PNG and JPEG stay unchanged. Other formats, and maps with -mm,
-  // become PNG. Appends warnings. Throws kInput if the image is missing, cannot be read, or has options that
-  // change its look.
+  // Adds the image of a map. Each file is added only once. PNG and JPEG stay unchanged. Other formats, and
+  // maps with -mm, become PNG. Adds warnings. Throws kInput if the image is missing, cannot be read, or has
+  // options that change how it looks.
   std::size_t add_file(MtlImages& images, const MtlMap& map, std::vector<std::string>& warnings);
-  // Adds an image, named after `model`, or finds an earlier one with equal bytes. Returns its index.
+  // Adds an image with a name from `model`. If an earlier image has equal bytes, uses that image. Returns the
+  // index.
   std::size_t add_pixels(MtlImages& images, const ImagePixels& pixels, const MtlMap& model,
                          std::string_view suffix);
   // Returns a reference to a texture of an image, with its place on the surface from `map`.

@@ -16,7 +16,7 @@ namespace remap {
 
 // A ModelName is a model, workflow or renderer as the user typed it.
 struct ModelName {
-  std::string name;                   // the name that converters and workflows use; the meaning of an alias
+  std::string name;  // name in converters and workflows; an alias is replaced by what it means
   const ModelAlias* alias = nullptr;  // the alias that the user typed
   bool empty() const noexcept { return name.empty(); }
   // Returns the alias if there is one, otherwise the name.
@@ -25,28 +25,28 @@ struct ModelName {
 // Returns the meaning of `word`. Aliases and workflows ignore case. Other words mean themselves.
 ModelName model_named(const std::string& word);
 
-// These words are how messages refer to the parts of a request.
+// These words name the parts of a request in messages.
 struct ConversionWords {
-  std::string source = "source", target = "target";
+  std::string source = "source", target = "target", via = "via";
   std::string source_workflow = "source_workflow", target_workflow = "target_workflow";
   std::string dielectric_f0 = "dielectric_f0", diffuse_convention = "diffuse_convention";
   std::string all_names = "models()";  // how to list every name
 };
 
 struct ConversionRequest {
-  // Each is a BRDF model (`mitsuba/ward`) or a workflow (`gltf`). The target may also be a renderer; this
-  // means the closest of its models.
+  // Each is a BRDF model (`mitsuba/ward`) or a workflow (`gltf`). The target may also be a renderer, which
+  // means its closest model.
   ModelName source, target;
-  // If one of these is set, the BRDF model is treated as a layer of that kind over the model.
+  // If one of these is set, the BRDF model has a layer of this kind above it.
   std::optional<WorkflowKind> source_workflow, target_workflow;
   std::vector<std::string> via;  // models that the path visits, in this order
   std::optional<DiffuseConvention> diffuse_convention;
-  std::optional<double> dielectric_f0;  // of metallic workflows, [0, 0.9]; default: the model's own
+  std::optional<double> dielectric_f0;  // for metallic workflows, 0 to 0.9; by default the model's F0
   double prior = kCleanPrior;           // prior of the projection, towards a metallic of 0 and 1
   // The fit provides the BRDFs, so the graph need not know them.
   bool uses_fit_file = false;
-  // If true and an end is OpenPBR or standard_surface, all inputs of the surfaces are translated. Otherwise
-  // both are metallic workflows like glTF.
+  // If true and one end is OpenPBR or standard_surface, all inputs of the surfaces are translated. Otherwise,
+  // both names mean metallic workflows like glTF.
   bool translates_surfaces = false;
   ConversionWords words;
 };
@@ -55,14 +55,14 @@ struct ConversionRequest {
 struct ConversionChoice {
   std::string source_brdf, target_brdf;  // models in the graph of converters
   std::string renderer;                  // the renderer of the target; empty for a workflow such as gltf
-  bool is_closest = false;  // target_brdf is the closest model of the renderer that the user chose
+  bool is_closest = false;  // true if the user chose a renderer, and target_brdf is its closest model
   // Both or neither are set. Without them, the conversion covers only roughness and specular.
   std::optional<WorkflowEnd> source, target;
   std::optional<SurfaceTranslation> translation;  // of whole surfaces, instead of a path between BRDFs
   double prior = kCleanPrior;
-  bool changes_nothing = false;          // both ends are one material, so only files and encodings change
+  bool changes_nothing = false;          // both ends are the same material; only files and encodings change
   std::vector<std::string> notes;        // explain the user's model names
-  std::vector<std::string> assumptions;  // one message per assumption
+  std::vector<std::string> assumptions;  // one message for each assumption
 
   bool is_material() const noexcept { return source.has_value(); }
   bool is_to_metallic() const noexcept {
@@ -78,7 +78,7 @@ struct ConversionChoice {
   RoughnessEncoding target_width(const ConverterInfo& info) const noexcept {
     return target ? width_of(*target) : info.target.roughness;
   }
-  // Return the parameters of the source and of the target, in the order of Parameter.
+  // Return the parameters of the source and those of the target, in the order of Parameter.
   std::vector<Parameter> sources() const;
   std::vector<Parameter> targets() const;
   bool has_source(Parameter parameter) const;
@@ -89,16 +89,16 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
 
 // A BuiltConversion holds the converter of a choice and its parts.
 struct BuiltConversion {
-  std::unique_ptr<Converter> owned_brdf;  // set unless `brdf` belongs to the graph
+  std::unique_ptr<Converter> owned_brdf;  // set if `brdf` does not belong to the graph
   const Converter* brdf = nullptr;        // for width and specular; null if both ends share a BRDF
   ConverterPath path;                     // the steps of `brdf`
-  std::optional<ConverterPath> closer;    // to a model that matches the highlight more closely (path.hpp)
-  std::unique_ptr<Converter> material;    // for whole materials; null if only width and specular change
+  std::optional<ConverterPath> closer;  // path to a model that matches the highlight more closely (path.hpp)
+  std::unique_ptr<Converter> material;  // for whole materials; null if only width and specular change
 
   // Returns the converter for the whole conversion.
   const Converter& converter() const noexcept { return material ? *material : *brdf; }
   const ConverterInfo& info() const noexcept { return converter().info(); }
-  // Returns the facts of the converter whose domain limits the conversion.
+  // Returns the info of the converter whose domain limits the conversion.
   const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };
 
@@ -107,11 +107,11 @@ struct BuiltConversion {
 BuiltConversion build_conversion(const ConversionChoice& choice, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set = best_instruction_set());
 
-// Makes the same around one converter of width and specular, for example from a fit.
+// Makes this from one converter of width and specular, for example from a fit.
 BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr<Converter> brdf);
 
-// Returns both ends of a warp. Each has plain diffuse, specular, and a width in the convention `width`. A
-// metallic source is read by equation (2).
+// Returns the choice for a warp. Each end has plain diffuse, specular, and a width with the encoding `width`.
+// A metallic source is read by equation (2).
 ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width);
 
 // Returns the stages of a conversion between workflows, around `brdf`, which may be null.

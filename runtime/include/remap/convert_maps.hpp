@@ -72,7 +72,7 @@ struct MapStatistics {
   std::size_t above_one_count = 0;         // texels with a finite source above 1, except roughness
   std::optional<TexelPosition> first_bad;  // the first with NaN, infinity or a negative value, in row order
   std::map<Parameter, ParameterStatistics> sources, targets;
-  // Holds the largest difference between copies of one value, for each parameter whose copies differ.
+  // Holds the parameters whose copies of one value differ, with the largest difference.
   std::map<Parameter, float> tints;
   MetallicStatistics metallic;
 
@@ -100,7 +100,8 @@ struct SourceParameter : ParameterValues {
   std::vector<std::string> channel_names;  // one per channel, for messages
 };
 
-// A TargetParameter holds the channels that receive a target parameter. Without any it is not stored.
+// A TargetParameter holds the channels that receive a target parameter. If there are none, the parameter is
+// not stored.
 struct TargetParameter {
   std::vector<ChannelView> channels;
   Transfer transfer = Transfer::kLinear;
@@ -119,8 +120,8 @@ inline constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 
 struct MapTreatment {
-  std::optional<RoughnessEncoding> target_convention;  // of results; by default the model's own
-  float target_roughness_factor = 1.0f;                // stored roughness times this is the roughness
+  std::optional<RoughnessEncoding> target_convention;  // encoding of results; by default the model's own
+  float target_roughness_factor = 1.0f;                // roughness is the stored value times this factor
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;               // add noise of half a step to 8-bit integers, the same in every run
   bool value_statistics = false;     // fill in ranges and histograms
@@ -130,18 +131,18 @@ struct MapTreatment {
 struct MapConversion : MapTreatment {
   std::size_t width = 0;
   std::size_t height = 0;
-  // Holds every source of the converter, and optional ones. Colors have 1 or 3 channels or constants. Other
-  // parameters have one channel, or several equal channels, of which the first is used. kInput reports the
-  // first texel where they differ by more than the tolerance.
+  // Holds all required sources of the converter, and some of its optional sources. Colors have 1 or 3
+  // channels or constants. Other parameters have one channel, or several equal channels, of which the first
+  // is used. If the channels differ by more than the tolerance, kInput reports the first such texel.
   std::map<Parameter, SourceParameter> sources;
   // These targets are stored. They may share the memory of the sources. A color has as many channels as the
   // converter makes; a grey one may also have three. Other parameters are stored in all of their channels.
   std::map<Parameter, TargetParameter> targets;
   // Holds the opacity. Texels with coverage 0 or less are converted, too, but do not count in statistics.
   std::optional<ConstChannelView> coverage;
-  std::optional<RoughnessEncoding> source_convention;  // of roughness; by default the model's own
+  std::optional<RoughnessEncoding> source_convention;  // encoding of roughness; by default the model's own
   std::optional<ChannelView> mask;                     // 1 for texels outside the domain, 0 for others
-  std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
+  std::size_t first_row = 0;  // position of row 0 in the whole map, which positions and dithering need
 };
 
 // Converts every texel. The results equal those of Converter::convert for each texel, for any number of
@@ -149,8 +150,8 @@ struct MapConversion : MapTreatment {
 // other than a color differ, and for the first invalid texel with BadTexels::kFail.
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count = 1);
 
-// Copies a channel. Equal pixel types are copied bit for bit, others as floats. Returns the number of values
-// that an integer pixel type clipped.
+// Copies a channel. If both have the same pixel type, copies bit for bit, otherwise as floats. Returns the
+// number of values that an integer pixel type clipped.
 std::size_t copy_channel(const ConstChannelView& from, const ChannelView& to, std::size_t width,
                          std::size_t height);
 

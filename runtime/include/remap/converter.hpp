@@ -36,8 +36,8 @@ InstructionSet best_instruction_set();
 // Returns all instruction sets from the baseline up to `best`.
 std::vector<InstructionSet> instruction_sets(InstructionSet best = best_instruction_set());
 
-// Returns the set of that name. Throws kUsage, beginning with `context`, if the name is unknown or the set is
-// beyond `best`.
+// Returns the set with this name. Throws kUsage, beginning with `context`, if the name is unknown or the set
+// is above `best`.
 InstructionSet instruction_set_from_name(const std::string& context, const std::string& name,
                                          InstructionSet best = best_instruction_set());
 
@@ -59,15 +59,15 @@ enum class Parameter {
 inline constexpr std::size_t kParameterCount = 96;
 inline constexpr bool is_input(Parameter parameter) noexcept { return parameter >= Parameter::kFirstInput; }
 
-// These powers of two are reasons why a texel's metallic material may differ from the intended one.
+// These powers of two are reasons why metallic of a texel may differ from what the author meant.
 enum class MetallicIssue {
   kClamped = 1,       // a parameter is outside [0, 1], or the base color would be
   kAmbiguous = 2,     // two separate metallic values look alike
   kDark = 4,          // metallic is undetermined, because diffuse and specular are dark
   kUndetermined = 8,  // metallic is undetermined: kMetallicUncertainty is above kUndeterminedWidth
 };
-// Above this value of kMetallicUncertainty, metallic is undetermined. Maps authored in both workflows differ
-// there by 0.15 RMS, and by less than 0.01 below half of this value.
+// Above this value of kMetallicUncertainty, metallic is undetermined. If an author made maps for both
+// workflows, metallic there differs by 0.15 RMS. Below half of this value, it differs by less than 0.01.
 inline constexpr float kUndeterminedWidth = 0.2f;
 // A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;
@@ -106,34 +106,32 @@ class MaterialRows {
   std::array<ParameterRows<Float>, kParameterCount> rows_;
 };
 
-// A PictureDifference states how far pictures of spheres differ from the source's pictures. It is the RMSE of
-// display values under environments, in per cent of the display's range. It is a mean over materials and
-// lights that had no part in the fit.
+// A PictureDifference states how far pictures of spheres differ from pictures of the source. It is the RMSE
+// of display values under environments, in per cent of the display's range. It is a mean over materials and
+// lights that the fit did not use.
 struct PictureDifference {
   double converted = 0.0;
-  double copied = 0.0;  // if the numbers are copied instead
+  double copied = 0.0;  // the same if numbers are copied
   bool operator==(const PictureDifference&) const = default;
 };
 
-// A ConverterInfo holds facts that a person or a program needs before using a converter.
+// A ConverterInfo holds what a person or a program needs to know before it uses a converter.
 struct ConverterInfo {
   std::string id;
   ModelSide source;
   ModelSide target;
   Range roughness;  // covered range of the source's own width parameter
   Range specular;   // covered range of the source's specular, linear
-  // This is the rms error of a fit to a table, in the target's alpha and specular. It is missing if it is
+  // This is the rms error of a fit to a table, in alpha and specular of the target. It is unset if it is
   // unknown, or if the fit was made from pictures.
   std::optional<double> roughness_rms_error;
   std::optional<double> specular_rms_error;
-  std::optional<double> image_rms_error;  // of the pictures at the best parameters, relative; none if unknown
-  // This is the structural similarity of spheres at the best parameters, the mean over widths; none if
-  // unknown. For a chained converter it is the value of the worst step.
+  std::optional<double> image_rms_error;  // of pictures at the best parameters; relative
   std::optional<double> ssim;
-  std::optional<PictureDifference> pictures;  // none if the built-in renderer lacks a model
-  bool is_copy = false;                       // alpha and specular stay unchanged: both models have one lobe
+  std::optional<PictureDifference> pictures;  // unset if the built-in renderer lacks a model
+  bool is_copy = false;  // true if both models have one lobe, so that alpha and specular stay unchanged
   InstructionSet instructions =
-      InstructionSet::kBaseline;   // the set it runs on; changes no bit of the results
+      InstructionSet::kBaseline;   // instruction set that it uses; results have the same bits on all
   std::vector<std::string> steps;  // ids of the parts of a chained converter; otherwise empty
   bool operator==(const ConverterInfo&) const = default;
 };
@@ -158,8 +156,9 @@ class Converter {
 
   // Returns the models, width parameters and ranges of both ends.
   const ConverterInfo& info() const noexcept { return info_; }
-  // Return the parameters that it needs and makes, each in the order of Parameter. They are width and
-  // specular of a BRDF, or a workflow's parameters. A converter with diagnostics may read kMetalMask.
+  // Return the parameters that the converter needs and the parameters that it makes, in the order of
+  // Parameter. They are width and specular of a BRDF, or the parameters of a workflow. A converter with
+  // diagnostics may read kMetalMask.
   const std::vector<Parameter>& sources() const noexcept { return sources_; }
   const std::vector<Parameter>& targets() const noexcept { return targets_; }
   bool has_source(Parameter parameter) const noexcept;
@@ -168,7 +167,8 @@ class Converter {
   bool converts_brdf_only() const noexcept { return sources_.size() == 2; }
   // Returns true if it can make kResidual, kMetallicUncertainty and kMetallicIssues.
   bool has_diagnostics() const noexcept { return has_target(Parameter::kResidual); }
-  // Returns the number of rows that it writes for a parameter, for `specular_channels` of the source.
+  // Returns the number of rows that the converter writes for a parameter, if the source has
+  // `specular_channels`.
   std::size_t target_channels(Parameter parameter, std::size_t specular_channels) const noexcept;
 
   // Converts `count` texels. `in` has rows of all sources(), colors in one or three rows. Only targets with

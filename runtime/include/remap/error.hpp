@@ -1,4 +1,4 @@
-// This file declares the only exception type of the project. Libraries throw it; only the two main functions
+// This file declares the only exception type of the project. Libraries throw it. Only the main functions
 // print it and exit.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace remap {
 
 // An ErrorKind lets a caller react without reading the message.
 enum class ErrorKind {
-  kUsage,        // the request names something that does not exist or does not fit together
+  kUsage,        // the request names something that does not exist, or its parts contradict each other
   kInput,        // a given file or value cannot be used
   kOutput,       // a result cannot be written
   kNumeric,      // a computation did not reach a reliable answer

@@ -54,8 +54,8 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-// A RoughnessEncoding is a parameter by which BRDF models state the microfacet width. Each one is an
-// invertible function of alpha. Sweeps and fits work in alpha.
+// A RoughnessEncoding is a parameter for the microfacet width, as BRDF models have it. Each encoding is an
+// invertible function of alpha. Sweeps and fits use alpha.
 
 enum class RoughnessEncoding {
   kAlpha,       // the microfacet width itself, (0, 1]
@@ -70,7 +70,7 @@ enum class RoughnessEncoding {
 double to_alpha(RoughnessEncoding convention, double own);
 double from_alpha(RoughnessEncoding convention, double alpha);
 
-// These names are used in fits and tables, and for the parameter in generated headers.
+// These names are used in fits and tables. Generated headers use them for the parameter.
 inline constexpr NamedValues<RoughnessEncoding, 5> kRoughnessEncodings = {
     {{RoughnessEncoding::kAlpha, "alpha"},
      {RoughnessEncoding::kRoughness, "roughness"},

@@ -34,24 +34,26 @@ double expected_error(const ConverterInfo& info);
 // A ConverterPath is a list of converters from the first one's source to the last one's target.
 struct ConverterPath {
   std::vector<const Converter*> steps;
-  // This is the sum over the steps. It is linear, because the differences of two steps are fixed pictures,
-  // which need not cancel.
+  // This is the sum over the steps. The errors are added, because the errors of two steps are fixed
+  // differences of pictures, which need not cancel.
   double expected_error = 0.0;
 };
 
-// A PathDifference is how much pictures of a path's results differ from the source's. People see it.
+// A PathDifference states how much pictures of a path's results differ from pictures of the source. People
+// see this difference.
 struct PathDifference {
   double converted = 0.0;        // RMSE of display values, percent
-  std::optional<double> copied;  // for copied numbers; known only for a single, measured step
-  bool is_estimate = false;      // for several steps, or if it comes from an image error
+  std::optional<double> copied;  // for copied numbers; set only for a single step that was measured
+  bool is_estimate = false;      // true for several steps, or if it comes from an image error
 };
 
-// This is the expected RMSE for an image error of 1: the median of the hub's 42 pairs, half of which lie
-// between 13 and 28. Image errors use one light from the side, pictures use environments.
+// This is the expected RMSE for an image error of 1. It is the median of the 42 pairs of Mitsuba's models,
+// and half of the pairs lie between 13 and 28. Image errors use one light from the side, but pictures use
+// environments.
 inline constexpr double kPercentOfImageError = 23.0;
 
-// Adds the steps' differences in quadrature, because they are usually unrelated. Returns 0 for a path without
-// steps, and nothing if a step has neither pictures nor an image error.
+// Adds the squares of the steps' differences, because these are usually unrelated, and takes the root.
+// Returns 0 for a path without steps. Returns nothing if a step has neither pictures nor an image error.
 std::optional<PathDifference> picture_difference(const ConverterPath& path);
 
 std::vector<std::string> path_models(const ConverterPath& path);
@@ -83,23 +85,23 @@ class ConverterGraph {
   // `converters` must outlive the graph and its paths. Several converters may join the same two models.
   explicit ConverterGraph(std::vector<const Converter*> converters, Detours detours = Detours::kAllowed);
 
-  // Return sorted names: of all models, of the models that `model` can reach, and of the models that reach
-  // it. The last two omit `model` itself.
+  // Return sorted names: of all models, of the models that can be reached from `model`, and of the models
+  // from which `model` can be reached. The last two lists do not have `model` itself.
   const std::vector<std::string>& models() const noexcept { return models_; }
   std::vector<std::string> reachable_from(const std::string& model) const;
   std::vector<std::string> reaching(const std::string& model) const;
   bool has_model(const std::string& name) const;
-  // Returns the two parameters of a model, as a converter from or to it has them. Returns an empty ModelSide
-  // if no converter has the model.
+  // Returns the two parameters of a model, as the converters of the model have them. Returns an empty
+  // ModelSide if there are none.
   ModelSide side_of(const std::string& model) const;
   // Returns the converters in the order of their ids.
   const std::vector<const Converter*>& converters() const noexcept { return converters_; }
   // Returns the sorted names of the models of a renderer.
   std::vector<std::string> models_of(const std::string& renderer) const;
 
-  // Returns the best path to each model of the renderer `request.target`, by the name of the model. It skips
-  // the source and the models in `via`. Returns nothing if no path leads to a model of the renderer. Throws
-  // kUsage if another name is unknown or a path would visit `via` twice.
+  // Returns the best path to each model of the renderer `request.target`, sorted by the name of the model.
+  // Skips the source and the models in `via`. Returns nothing if no path leads to a model of the renderer.
+  // Throws kUsage if another name is unknown, or if a path would visit `via` twice.
   std::vector<ConverterPath> paths_to_renderer(const PathRequest& request) const;
 
   // Returns up to `count` (1 or more) paths that visit no model twice, and at least one. They are sorted by
@@ -123,7 +125,7 @@ class ConverterGraph {
 
 // Returns the graph of all shipped converters, without detours.
 ConverterGraph shipped_graph(InstructionSet set = best_instruction_set());
-// Returns the graph of the converters of a list, which must outlive it. It has no detours either.
+// Returns the graph of the converters of a list, which must outlive it. It has no detours.
 ConverterGraph graph_of(const ConverterList& converters);
 
 // The following function joins several converters into one, so that maps are read and written once.
@@ -138,11 +140,12 @@ ConverterGraph graph_of(const ConverterList& converters);
 // Throws kInput if a step does not take the model and parameters that the step before it makes.
 std::unique_ptr<Converter> make_chained_converter(const std::vector<const Converter*>& steps);
 
-// A SourceDomain is a part of the first step's domain whose images lie in the domains of all later steps.
-// First it takes the widest range of width whose images do so at every covered specular. Then it takes the
-// widest range of specular, from its lower end, whose images do so at all those widths. The search is a
-// bisection, because the mappings are monotone; ends are rounded inwards to 4 digits. It is the first step's
-// own domain if a sample of the part has its image outside, or if there is no such part around the middle.
+// A SourceDomain is a part of the first step's domain. The steps map it into the domains of all later steps.
+// It has the widest range of width for which this holds at every covered specular. Then it has the widest
+// range of specular, from its lower end, for which this holds at all these widths. The ranges are found by
+// bisection, because the mappings are monotone, and their ends are rounded inwards to 4 digits. If a sample
+// of this part leaves a later domain, or if no such part exists around the middle, it is the whole domain of
+// the first step.
 struct SourceDomain {
   Range roughness;  // the source's own width parameter
   Range specular;
@@ -169,16 +172,17 @@ inline constexpr double kLeastCoverage = 0.15;
 // a path without steps.
 bool is_copy(const ConverterPath& path);
 
-// Returns true if the pictures of every step were compared.
+// Returns true if pictures of every step were compared.
 bool is_measured(const ConverterPath& path);
 
-// Returns the path of least expected error among `paths`, which start at one source and must not be empty.
-// Errors that agree when rounded up to three digits are equal, and the first of equal paths wins. Skips paths
-// that cover less than kLeastCoverage of what the widest path covers.
+// Returns the path with the smallest expected error. `paths` start at one source and must not be empty.
+// Errors are rounded up to three digits before they are compared, and the first of equal paths wins. Skips
+// paths that cover less than kLeastCoverage of what the widest path covers.
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths);
 
-// Returns the closest of the `others` that lead to another model of the renderer of `path`, if it is closer.
-// Returns nothing if none is, or if one of the two paths is not measured. All start at one source.
+// Returns the closest of `others` that leads to another model of the same renderer, if it is closer than
+// `path`. Returns nothing if there is none, or if one of the two paths is not measured. All paths start at
+// one source.
 std::optional<ConverterPath> closer_path(const ConverterPath& path, const std::vector<ConverterPath>& others);
 
 }  // namespace remap

@@ -33,9 +33,9 @@ bool is_integer(PixelType type) noexcept;
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept;
 
-// Writes values back, rounded to the closest number. Integers are clipped to [0, 1] ([-1, 1] if signed), and
-// NaN becomes 0. Returns the number of clipped values. Values that `load_values` read from an integer of at
-// most 24 bits are restored bit for bit.
+// Writes values, rounded to the closest number. Integers are clipped to [0, 1] ([-1, 1] if signed), and NaN
+// becomes 0. Returns the number of clipped values. If `load_values` read the values from integers of at most
+// 24 bits, the bits are the same again.
 std::size_t store_values(PixelType type, const float* values, std::size_t count, std::byte* first,
                          std::size_t stride) noexcept;
 
@@ -96,8 +96,8 @@ inline std::size_t store(const ChannelView& view, const Segment& segment, const 
                       static_cast<std::size_t>(view.texel_stride));
 }
 
-// The rest of the file decodes the numbers of a map for a converter: curves of colors, encodings of
-// roughness.
+// The rest of the file is about decoding the numbers of a map for a converter: curves of colors, and
+// encodings of roughness.
 
 // A Transfer is a curve from linear to stored values.
 enum class Transfer {
@@ -113,9 +113,9 @@ inline Transfer usual_color_transfer(PixelType type) noexcept {
   return is_integer(type) ? Transfer::kSrgb : Transfer::kLinear;
 }
 
-// A ParameterValues completes a map: it holds what is needed to get a parameter's linear values.
+// A ParameterValues holds what is needed, besides a map, to get linear values of a parameter.
 struct ParameterValues {
-  std::vector<float> constants;           // one, or one each for red, green and blue; used without a map
+  std::vector<float> constants;           // one value, or red, green and blue; used if there is no map
   std::vector<float> factors;             // factors of the linear values: none, one, or one per channel
   Transfer transfer = Transfer::kLinear;  // curve of the stored values
 
@@ -124,8 +124,9 @@ struct ParameterValues {
   }
 };
 
-// These functions convert stored values to linear values, and back, in place. They are within 0.51 units in
-// the last place of the formula and give the same bits on every machine. NaN stays NaN.
+// These functions convert stored values to linear values, or linear values to stored values, in place. They
+// are within 0.51 units in the last place of the formula, and give the same bits on every machine. NaN stays
+// NaN.
 void to_linear(Transfer transfer, std::span<float> values) noexcept;
 void from_linear(Transfer transfer, std::span<float> values) noexcept;
 

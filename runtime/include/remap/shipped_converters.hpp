@@ -1,4 +1,4 @@
-// This file gives the shipped converters of generated/converters.json, which is part of the library.
+// This file returns the shipped converters of generated/converters.json, which is part of the library.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ const ConverterList& shipped_converters(InstructionSet set = best_instruction_se
 // order of their ids. Throws kInput if there is none.
 ConverterList read_converters(const std::filesystem::path& path, InstructionSet set = best_instruction_set());
 
-// Returns the shipped converter from one model to another in one step. For longer paths see path.hpp. Throws
-// kUsage if there is none.
+// Returns the shipped converter that leads from one model to another in one step. For longer paths, see
+// path.hpp. Throws kUsage if there is none.
 const Converter& find_converter(const std::string& source_model, const std::string& target_model,
                                 InstructionSet set = best_instruction_set());
 

@@ -27,11 +27,11 @@ enum class Surface {
 
 // A SurfaceInput is one input of a model. Colors are linear.
 struct SurfaceInput {
-  std::string_view name;                // in the model
-  std::optional<Parameter> parameter;   // none if a map cannot provide it: switches, occlusion
+  std::string_view name;                // name in the model
+  std::optional<Parameter> parameter;   // unset if a map cannot provide it (switches, occlusion)
   std::size_t channels = 1;             // 1 or 3
   std::array<float, 3> value{};         // default
-  std::optional<std::size_t> weight{};  // index of the input that hides this one if it is 0
+  std::optional<std::size_t> weight{};  // index of another input that hides this input if it is 0
 };
 
 // Returns the inputs in the order of the model's definition.
@@ -68,14 +68,14 @@ struct SurfaceValue {
 // A TranslationEffect is what a translation makes of one material, some of whose inputs are maps.
 struct TranslationEffect {
   std::vector<Parameter> written;    // targets that depend on a map
-  std::vector<Parameter> unchanged;  // those among them whose values are the source's
-  std::vector<Parameter> wide;       // those among them with values outside of 0 to 1
-  std::vector<SurfaceValue> values;  // other targets that differ from the default
+  std::vector<Parameter> unchanged;  // targets in `written` whose values are the source's
+  std::vector<Parameter> wide;       // targets in `written` with values outside of 0 to 1
+  std::vector<SurfaceValue> values;  // other targets whose value is not the default
   std::vector<std::string> lost;     // given sources that no target depends on
 };
 
 // Finds the effect by translating random texels. `given` has the constants of a source parameter, or nothing
-// if it is a map. The other inputs have their defaults.
+// if the parameter is a map. Other inputs have their defaults.
 using GivenInputs = std::map<Parameter, std::optional<std::vector<float>>>;
 TranslationEffect effect_of(const SurfaceTranslation& translation, const GivenInputs& given);
 

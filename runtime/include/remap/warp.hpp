@@ -51,7 +51,8 @@ struct QuadraticTerms {
 inline constexpr std::size_t kQuadraticTerms = 36;
 
 // An AppearanceCoordinates gives the position of a reflectance in the appearance space of its material.
-// Reflectances are clamped to [0, 1], alpha to its range. Unit: RMS distance of texels from the mean.
+// Reflectances are clamped to [0, 1], and alpha to its range. The unit is the RMS distance of texels from the
+// mean.
 struct AppearanceCoordinates {
   std::size_t dimension = 0;   // 1 to 3
   float least_alpha = 0.0f;    // above 0
@@ -68,11 +69,11 @@ std::size_t width_node_count(const AppearanceCoordinates& space, const Separable
 std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
                                                     const WarpTexel& texel) noexcept;
 
-// A BlendedNodes interpolates multilinearly between nodes. Positions are clamped to the box.
+// A BlendedNodes interpolates multilinearly between nodes. Positions are clamped to the box of the table.
 struct BlendedNodes {
-  std::array<float, kWarpParameters> least{}, largest{};  // of each parameter
-  // The codes are nodes^dimension x 7, the first dimension fastest. A parameter is least + (largest - least)
-  // (code / 255)^2, with finer steps for dark values.
+  std::array<float, kWarpParameters> least{}, largest{};  // range of each parameter
+  // There are nodes^dimension x 7 codes, and the first dimension is the fastest. A parameter is least +
+  // (largest - least) (code / 255)^2, so that dark values have finer steps.
   std::vector<std::uint8_t> codes;
 
   bool operator==(const BlendedNodes&) const = default;
@@ -132,7 +133,7 @@ struct WarpMapFit {
   std::string source_model, template_model;  // models of the texels before and after: `mitsuba/ggx`
   CompiledWarp warp;
   // This is the RMS distance in appearance from the exact copy of template texels. It is a fraction of the
-  // template's spread, or -1 if unknown.
+  // template's spread. It is -1 if unknown.
   double copy_rms_error = -1.0;
   std::map<std::string, std::string> method;  // how the fit was made
   std::vector<std::string> remarks;           // warnings of the fit, one line each

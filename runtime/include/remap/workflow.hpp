@@ -50,7 +50,7 @@ struct MetallicWorkflow {
 };
 
 // The projection adds `prior` times the mean weight times metallic (1 - metallic) to its error. So if two
-// solutions are similar, it chooses the one closer to metallic 0 or 1.
+// solutions are similar, it chooses the solution that is closer to metallic 0 or 1.
 inline constexpr double kCleanPrior = 1e-6;  // for maps without noise, 8 bits or more
 inline constexpr double kNoisyPrior = 1e-5;  // for scans and JPEG
 inline constexpr double kLargestPrior = 1.0;
@@ -83,7 +83,7 @@ inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
 struct WorkflowModel {
   WorkflowEnd end;
   std::string brdf;                // model of its width and specular in the graph of converters
-  bool conventions_known = false;  // true if a specification or source code states them; otherwise assumed
+  bool conventions_known = false;  // a specification or source code states them; else assumed
   std::string reason;              // the source of the conventions
 };
 
@@ -112,8 +112,8 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
 // roughness, nor a convention that the model leaves open.
 bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
 
-// Returns true if both describe the same material by the same numbers over one BRDF. It does not compare
-// names and encodings of the roughness.
+// Returns true if both describe the same material by the same numbers over one BRDF. Does not compare names
+// and encodings of roughness.
 bool is_same_material(const WorkflowEnd& a, const WorkflowEnd& b);
 
 // The following functions convert whole materials between workflows.
@@ -124,16 +124,16 @@ std::vector<Parameter> parameters_of(const WorkflowEnd& end);
 // A WorkflowStages describes the stages of a conversion from one workflow to another.
 struct WorkflowStages {
   WorkflowEnd source, target;
-  // This converts between the BRDFs of both ends. It is null if they are the same.
+  // This converts between the BRDFs of both ends. It is null if both ends have the same BRDF.
   const Converter* brdf = nullptr;
   RoughnessEncoding width = RoughnessEncoding::kRoughness;  // width of both ends if `brdf` is null
   double prior = kCleanPrior;                               // for the projection to metallic
 };
 
-// Makes the converter from up to three stages. Equation (2) comes first if the source is metallic. Then
-// `brdf` changes width and specular. The projection comes last if the target is metallic. One material at
-// both ends needs no stage. The diffuse lobe keeps its reflectance when `brdf` changes specular, so scaled
-// diffuse is scaled to the new specular. Throws kInput like require_valid().
+// Makes the converter from up to three stages. If the source is metallic, equation (2) comes first. Then
+// `brdf` changes width and specular. If the target is metallic, the projection comes last. If both ends are
+// the same material, no stage is needed. The diffuse lobe keeps its reflectance if `brdf` changes specular,
+// so scaled diffuse is scaled to the new specular. Throws kInput like require_valid().
 std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
                                                    InstructionSet set = best_instruction_set());
 

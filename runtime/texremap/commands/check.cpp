@@ -27,7 +27,8 @@
 
 namespace remap {
 
-// Lists all members for another process (packed_values.hpp). Both share the constants with rule names.
+// Lists all members, so that another process can receive them (packed_values.hpp). It has the same constants
+// with rule names.
 template <typename Archive>
 void fields(Archive& archive, Fix& fix) {
   archive(fix.words, fix.command, fix.asset, fix.output, fix.options);

@@ -18,12 +18,12 @@ inline constexpr NamedValues<PlanKind, 3> kPlanKinds = {
 // A PlannedFarm is a conversion in parts, with the needs of each part.
 struct PlannedFarm {
   std::string program;                                   // texremap, as the jobs call it
-  std::filesystem::path manifest, tree, output, folder;  // absolute; `folder` is the plan's
-  std::vector<std::string> options;                      // options of convert, without the above
+  std::filesystem::path manifest, tree, output, folder;  // absolute paths; `folder` is where the plan lies
+  std::vector<std::string> options;                      // options of convert, except the paths above
   std::size_t parts = 1;
-  unsigned threads = 1;      // threads of a part; 0 for all of its machine
-  int memory_megabytes = 0;  // memory of a part
-  int minutes = 0;           // limit for a part
+  unsigned threads = 1;      // threads of each part; 0: as many as its machine has cores
+  int memory_megabytes = 0;  // memory of each part
+  int minutes = 0;           // time limit of each part
 };
 
 // Throws kUsage for words that the files of a plan cannot hold. A line break would begin a script line.

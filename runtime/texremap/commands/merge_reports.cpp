@@ -1,4 +1,5 @@
-// `texremap merge-reports` makes one report of the parts of a conversion, and reports missing parts.
+// This file is `texremap merge-reports`. It makes one report from the reports of all parts, and reports
+// missing parts.
 #include <iostream>
 #include <optional>
 
@@ -32,7 +33,7 @@ Json summary_json(const MergedReport& merged) {
   return {{"summary", summary}};
 }
 
-// Nobody reads more failures on the screen; the report has all.
+// Nobody reads more failures on the screen. The report has all failures.
 constexpr std::size_t kShownFailures = 20;
 
 void merge(const MergeOptions& options) {

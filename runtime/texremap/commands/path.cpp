@@ -22,9 +22,9 @@ constexpr std::size_t kPathsShown = 3;
 
 // A Plan holds the paths and errors that the command prints.
 struct Plan {
-  std::vector<ConverterPath> paths;     // the chosen one and the next best
-  ConverterInfo whole;                  // facts of the chosen one
-  std::optional<ConverterPath> closer;  // closer than the chosen one
+  std::vector<ConverterPath> paths;     // the chosen path and the next best
+  ConverterInfo whole;                  // domain and errors of the chosen path
+  std::optional<ConverterPath> closer;  // a path to a model of the same renderer that matches more closely
 };
 
 // Returns the reason why the first of `paths` was chosen.

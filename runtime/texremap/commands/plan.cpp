@@ -33,19 +33,19 @@ struct PlanOptions {
   bool force = false, json = false, quiet = false;
 };
 
-// A part takes a quarter of an hour: long compared with its start, and short enough to lose after a kill.
+// A part takes a quarter of an hour. Its start takes little of this, and a killed job loses little work.
 constexpr double kUsualSeconds = 900.0;
-// A cluster with the default of Slurm's MaxArraySize refuses more parts.
+// Slurm refuses more parts if the cluster keeps the default of MaxArraySize.
 constexpr std::size_t kMostParts = 1000;
 constexpr std::size_t kMeasuredEntries = 8;
 
 // A Measurement holds time and memory of a conversion on this machine.
 struct Measurement {
-  double seconds_a_cost = 0.0;  // seconds on one thread
+  double seconds_a_cost = 0.0;  // seconds for each unit of cost, on one thread
   double memory_bytes = 0.0;
 };
 
-// Returns the largest entry, and others evenly spread over the entries by their cost.
+// Returns the entry with the largest cost, and entries at even steps through the list that is sorted by cost.
 Listing sample_of(const TreeManifest& manifest) {
   std::vector<std::size_t> order(manifest.costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

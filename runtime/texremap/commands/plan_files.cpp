@@ -1,5 +1,5 @@
-// This file writes the texts of plans. Slurm: sbatch(1), job arrays and dependencies. Open Job Description:
-// template schema 2023-09 (OpenJobDescription/openjd-specifications).
+// This file writes the texts of plans for Slurm (see sbatch(1)) and for Open Job Description (template schema
+// 2023-09, OpenJobDescription/openjd-specifications).
 #include <algorithm>
 
 #include "core/errors.hpp"
@@ -16,7 +16,8 @@ std::string shell_line(const std::vector<std::string>& words) {
   return text;
 }
 
-// Writes a folder and a file name in a line #SBATCH. sbatch(1) replaces %, and reads words like a shell.
+// Returns the #SBATCH line with the log file. sbatch(1) replaces % and reads quotes and backslashes like a
+// shell, so they are escaped in `folder`.
 std::string log_line(const std::filesystem::path& folder, const std::string& name) {
   std::string text;
   for (const char c : folder.string()) {
@@ -37,7 +38,7 @@ PlannedPaths paths_of(const PlannedFarm& farm) {
           (farm.folder / "report.jsonl").string()};
 }
 
-// `part` is the value of --part.
+// Returns the command that converts a part. `part` is the value of --part.
 std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPaths& paths,
                                        const std::string& part) {
   std::vector<std::string> words = {paths.program,  "convert", paths.tree, "--manifest",
@@ -73,7 +74,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "exit \"$code\"\n";
   const std::string merge = "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n" +
                             log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
-  // The script accepts parts to repeat, as in `submit.sh 3,17`.
+  // The script accepts numbers of parts to repeat, as in `submit.sh 3,17`.
   const std::string submit =
       "#!/bin/sh\n# Submits all parts, or the parts of its argument (3,17-19), and after them the merge.\n"
       "set -e\nhere=" +
@@ -97,8 +98,8 @@ PlanFiles commands_files(const PlannedFarm& farm) {
               shell_word((farm.folder / "merge.sh").string())};
 }
 
-// Returns a parameter of a template that is a path, which farms translate for each worker. Its value is in a
-// file beside the template, because a default must not be absolute.
+// Returns a template parameter that holds a path. Farms translate such paths for each worker. The value is in
+// a file beside the template, because a default in the template must not be absolute.
 Json path_parameter(const std::string& name, const std::string& object, const std::string& flow) {
   return {{"name", name}, {"type", "PATH"}, {"objectType", object}, {"dataFlow", flow}};
 }
@@ -114,7 +115,8 @@ std::string file_uri(const std::filesystem::path& path) {
   return uri;
 }
 
-// Returns a command without a shell: each word is an argument. A stopped command has time to clean up.
+// Returns a command that runs without a shell, so each word is one argument. A stopped command has time to
+// clean up.
 Json script_json(const std::vector<std::string>& words) {
   const std::vector<std::string> arguments(words.begin() + 1, words.end());
   return {{"actions",

@@ -48,7 +48,8 @@ NamedWord named_word(const std::string& option, const std::string& word) {
   return {*parameter, word.substr(sign + 1)};
 }
 
-// Reads the encoding of roughness maps. Glossiness has an option for its maps.
+// Reads the encoding of roughness maps. Glossiness is not one of the words, because --glossiness gives such
+// maps.
 Reader<RoughnessEncoding> map_encoding() {
   Reader<RoughnessEncoding> reader = one_of(kRoughnessEncodings, "encoding");
   std::erase(reader.choices, "glossiness");
@@ -149,7 +150,7 @@ Reader<double> prior() {
 
 ColorSpaceWord color_space_word(const std::string& option, const std::string& word) {
   const std::size_t sign = word.find('=');
-  // Without a sign, npos + 1 is 0, which gives the whole word.
+  // Without a sign, npos + 1 is 0, so substr() returns the whole word.
   const Transfer transfer = one_of(kTransfers, "color space").read(option, word.substr(sign + 1));
   if (sign == std::string::npos) return {std::nullopt, transfer};
   const std::string name = word.substr(0, sign);
@@ -397,7 +398,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
                       ->tag(kForAssets);
   command
       .add_flag("--verbose", options.verbose,
-                "Print every warning, and measures of each set that pictures do not show")
+                "Print every warning, the converter, and measures of each set that pictures do not show")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }

@@ -32,14 +32,14 @@ enum : OptionTags {
   kNeedsMetallic = 1u << 4u,  // needs metallic as a result
   kNotWithWorkflow = 1u << 5u,
   kNotWithWarp = 1u << 6u,
-  kNotWithDiffuseWarp = 1u << 7u,  // a warp whose source is only a diffuse map
-  kNeedsAsset = 1u << 8u,          // assets instead of texture sets
+  kNotWithDiffuseWarp = 1u << 7u,  // not with a warp whose source is only a diffuse map
+  kNeedsAsset = 1u << 8u,          // needs assets instead of texture sets
   kNeedsGltf = 1u << 9u,           // needs a glTF file among the assets
-  kForAssets = 1u << 10u,          // assets as well as texture sets
-  kNeedsTree = 1u << 11u,          // if assets are converted, a folder of them
+  kForAssets = 1u << 10u,          // applies to assets as well as to texture sets
+  kNeedsTree = 1u << 11u,          // if the run converts assets, needs a folder of assets
   kIsPath = 1u << 12u,             // path of a file or folder, relative to the working folder
-  kOfPlan = 1u << 13u,             // texremap plan writes it itself
-  kNeedsTranslation = 1u << 14u,   // needs surfaces as both ends
+  kOfPlan = 1u << 13u,             // texremap plan sets this option itself
+  kNeedsTranslation = 1u << 14u,   // needs surfaces as source and target
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -63,7 +63,7 @@ struct FactorWord {
 
 // An F0Choice is the source of the F0 of dielectrics.
 struct FromMaps {};
-using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
+using F0Choice = std::variant<std::monostate, double, FromMaps>;  // by default: the F0 of the model
 
 // Returns a reader for a model in `--from` and `--to`.
 Reader<ModelName> model_name();
@@ -78,9 +78,9 @@ struct ConvertOptions {
   std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
   std::vector<std::filesystem::path> more_assets;
   bool assets = false;                // the folder holds assets, not texture sets
-  std::filesystem::path asset_root;   // assets may name files only below it
+  std::filesystem::path asset_root;   // assets may name only files below this folder
   bool extensions = false;            // glTF extensions instead of core
-  std::optional<MtlMaker> mtl_maker;  // maker of MTL files; if none, the files decide
+  std::optional<MtlMaker> mtl_maker;  // program that wrote the MTL files; if unset, detected
   bool fold_specular = false, keep_unused = false, bake = false;
   std::optional<int> jpeg;  // JPEG quality
   ModelName from, to;
@@ -88,15 +88,15 @@ struct ConvertOptions {
   std::string fit;
   UsedConverters converters;
   bool recursive = false;
-  bool follow_links = false;       // links that leave the folder of the inputs
+  bool follow_links = false;       // follows links that lead out of the input folder
   std::filesystem::path manifest;  // lists the sets or assets, so that the folder is not searched
   std::optional<GivenPart> part;   // part of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
-  std::optional<MapSource> glossiness;  // also read into `maps` as roughness
+  std::optional<MapSource> glossiness;  // also in `maps`, as roughness
   std::optional<MapSource> occlusion;
   std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
-  std::vector<InputWord> inputs;                        // also read into `maps`
+  std::vector<InputWord> inputs;                        // also in `maps`
   std::vector<FactorWord> factors;
   std::vector<std::string> prefer;  // choice among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
@@ -115,7 +115,7 @@ struct ConvertOptions {
   std::optional<PixelType> type;
   std::optional<int> compression;  // compression level
   std::optional<RoughnessEncoding> output_encoding;
-  std::optional<double> output_roughness_factor;  // the exponent that a stored 1 means, if known
+  std::optional<double> output_roughness_factor;  // the exponent that a stored value of 1 means, if known
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none

@@ -17,11 +17,11 @@ struct Scheduler {
   const char* name;
   const char* index;
   const char *first, *last, *step, *count;
-  std::size_t usual_first;  // first number of its arrays
+  std::size_t usual_first;  // number of the first job of an array, by default
 };
 
-// Slurm: job array support. AWS Batch: array jobs. Kubernetes: indexed jobs. Grid Engine: qsub -t. PBS: qsub
-// -J. LSF: bsub -J "name[1-N]". GNU parallel: {#}.
+// The names are from these manuals: Slurm "Job Array Support", AWS Batch "Array jobs", Kubernetes "Indexed
+// Job", Grid Engine qsub -t, PBS qsub -J, LSF bsub -J "name[1-N]", GNU parallel {#}.
 constexpr std::array<Scheduler, 7> kSchedulers = {{
     {"Slurm", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP",
      "SLURM_ARRAY_TASK_COUNT", 1},
@@ -87,7 +87,8 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
 
 GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
   const std::size_t index = *number(scheduler_.index);
-  // With a given number of parts the array may be a piece of a whole, such as the tasks to repeat.
+  // If the user gives the number of parts, the array may be only some of these parts, for example the failed
+  // ones. Then its first number says nothing.
   const std::size_t first =
       count ? scheduler_.usual_first : number(scheduler_.first).value_or(scheduler_.usual_first);
   const bool is_given = count.has_value();

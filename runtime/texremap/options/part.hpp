@@ -8,14 +8,15 @@
 
 namespace remap {
 
-// These are names in an output folder: the journal of a run of all sets (journal.hpp), and the folder of the
-// parts. It holds a journal and a report (`part-0012-of-0400.jsonl`) of each part.
+// These are names in an output folder. A run over all sets has the journal kJournalName (journal.hpp). Parts
+// have the folder kPartsFolder, with a journal and a report (`part-0012-of-0400.jsonl`) for each part.
 inline constexpr const char* kJournalName = ".texremap.jsonl";
 inline constexpr const char* kPartsFolder = ".texremap-parts";
 inline constexpr const char* kPartJournal = ".journal";
 inline constexpr const char* kPartReport = ".jsonl";
 
-// A Part is part `index` of `count`, from 1. A manifest's parts are runs of sets of about equal cost.
+// A Part is part `index` of `count`, counted from 1. Each part of a manifest has successive sets, and all
+// parts cost about the same.
 struct Part {
   std::size_t index = 1, count = 1;
   bool operator==(const Part&) const = default;
@@ -31,8 +32,9 @@ struct GivenPart {
   std::string note;  // what was understood from the environment
 };
 
-// Reads `12/400`, `auto` or `auto/400`. `auto` needs the place in an array of jobs and its size in the
-// environment. `auto/400` needs only the place. Throws kUsage, with the missing value.
+// Reads `12/400`, `auto` or `auto/400`. With `auto`, the environment must hold the number of this job and the
+// size of the array of jobs. `auto/400` needs only the number of this job. Throws kUsage, with the name of
+// the missing value.
 GivenPart part_of(const std::string& word, const std::function<const char*(const char* name)>& environment);
 
 }  // namespace remap

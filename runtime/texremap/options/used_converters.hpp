@@ -10,16 +10,18 @@
 
 namespace remap {
 
-// A UsedConverters holds the shipped converters, or the ones from --converters (a file or folder), read once.
+// A UsedConverters holds the shipped converters, or those of --converters (a file or folder), which it reads
+// once.
 class UsedConverters {
  public:
   // Adds the option, which every command has. The object must live until the command has run.
   Option* add_option(Command& command);
-  // Returns the graph of the converters, which must not outlive this object. Throws kInput if unreadable.
+  // Returns the graph of the converters, which must not outlive this object. Throws kInput if a converter
+  // cannot be read.
   ConverterGraph graph(InstructionSet set = best_instruction_set()) const;
 
  private:
-  std::filesystem::path path_;  // if empty, the shipped ones
+  std::filesystem::path path_;  // if empty, the shipped converters are used
   mutable std::map<InstructionSet, std::shared_ptr<const ConverterList>> read_;
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint64_t kCopiedAtOnce = std::uint64_t{1} << 20;
 
-// Returns the path below a root that `path` means, relative to a folder below the root.
+// Returns `path`, which is relative to `folder`, as a path relative to `root`. Throws kInput if it leads out
+// of `root`.
 fs::path below(const fs::path& folder, const fs::path& root, const std::string& path) {
   std::string slashes = path;
   std::ranges::replace(slashes, '\\', '/');

@@ -15,7 +15,8 @@
 
 namespace remap {
 
-// A FileSource gives the bytes of a file that stays open. It is read to its end even if its name changes.
+// A FileSource gives the bytes of a file that stays open, so the whole file can be read even if it is
+// renamed.
 class FileSource final : public ByteSource {
  public:
   // Throws kInput unless `path` leads to a regular file that can be read.
@@ -39,8 +40,8 @@ class FolderResources final : public AssetResources {
   ImagePixels enlarged(const ImagePixels& pixels, std::size_t width, std::size_t height) const override;
   std::string image_prefix() const override { return job_.image_prefix; }
 
-  // Return where a file that the asset names lies, and where the result finds it. Throw kInput for a name
-  // that leads out of the root.
+  // Return the path of a file that the asset names, and the path of the copy that the result names. Throw
+  // kInput for a name that leads out of the root.
   std::filesystem::path input(const std::string& path) const;
   std::filesystem::path output(const std::string& path) const;
 
@@ -54,13 +55,14 @@ struct ResourceCopy {
 };
 
 struct ResourcePlan {
-  std::vector<ResourceCopy> copies;   // files that are missing beside the result
-  std::vector<std::string> warnings;  // about missing files that the asset names
+  std::vector<ResourceCopy> copies;   // files that must be copied to the result
+  std::vector<std::string> warnings;  // name missing files that the asset uses
 };
 
-// Plans the copies that the result needs to find the files that the asset names. In one folder it needs none.
-// Throws kInput for a name that leads out of the root or to the asset itself, or that is one of texremap's
-// own files. It calls `require_free` for each file that a copy would replace; which throws if it must stay.
+// Plans copies of the files that the asset names, so that the result finds them. If the result lies in the
+// folder of the asset, it needs no copies. Throws kInput for a name that leads out of the root or to the
+// asset itself, and for a name that texremap uses for its own files. Calls `require_free` for each file that
+// a copy would replace. `require_free` throws if the file must not be replaced.
 ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
                             const std::function<void(const std::filesystem::path&)>& require_free);
 

@@ -13,10 +13,10 @@ bool is_asset_name(const std::filesystem::path& path);
 // Returns true if the file is glTF, to which most options of assets apply.
 bool is_gltf_name(const std::filesystem::path& path);
 
-// Returns the extensions, without dot, of the assets in a folder that a run with this `--format` converts. If
-// `--format` is given these are OBJ files, otherwise files that keep their format.
+// Returns the extensions, without dot, of the assets that a run converts in a folder. If `format` is given,
+// these are OBJ files. Otherwise, these are the files that keep their format.
 std::vector<std::string> asset_extensions(const std::string& format);
-// Returns these assets in words, such as `glTF or MTL file`.
+// Returns the formats of such assets as text, for example `glTF or MTL file`.
 std::string asset_words(const std::string& format);
 
 // Returns the extension of the result, with its dot, or an empty text if the input's extension stays. Throws

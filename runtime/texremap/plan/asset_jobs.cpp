@@ -142,9 +142,9 @@ class NamePlan {
     }
   }
 
-  // Sets prefixes. New images are named after images that the asset names. Two assets may use the same image
-  // stem, or a new image could get the name of another asset's file. Then the prefix is the asset's name:
-  // `chair_`, or `chair_2_` if another asset has that.
+  // Sets prefixes. A new image is named after an image that the asset uses. If two assets use images of the
+  // same name, or if a new image would have the name of a file of another asset, the prefix is the name of
+  // the asset: `chair_`. If another asset has this prefix, too, it is `chair_2_`.
   void set_prefixes() {
     for (Job& job : list_.jobs) take_stems(asset_in(job));
     for (Job& job : list_.jobs) {
@@ -165,7 +165,7 @@ class NamePlan {
     if (!other.empty() && job.refusal.empty()) job.refusal = written_twice_text(name, other, owner);
   }
 
-  // Returns the key of a name in take_stems().
+  // Returns the name without its extension, as a key of `stems_` and `names_`.
   static std::string stem_of(const fs::path& name) {
     const std::string key = name_key(name);
     return key.substr(0, key.size() - fs::path(key).extension().string().size());
@@ -210,7 +210,7 @@ class NamePlan {
 
   JobList& list_;
   Stems stems_;
-  std::unordered_map<std::string, std::set<fs::path>> names_;  // files, by the stem that could name them
+  std::unordered_map<std::string, std::set<fs::path>> names_;  // keyed by stems for which they may be made
 };
 
 }  // namespace

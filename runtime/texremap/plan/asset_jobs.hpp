@@ -16,8 +16,9 @@ std::vector<std::filesystem::path> named_assets(const ConvertOptions& options);
 // Returns true if the name belongs to an asset that this program reads.
 bool is_asset(const std::filesystem::path& path);
 
-// `listing` comes from the manifest, if there is one. An asset that would write a file of another one gets a
-// refusal. Throws kUsage if a folder has no assets, and kInput if it cannot be read.
+// Returns the jobs. If `listing` is not null, it is the content of a manifest. If an asset would write a file
+// that another asset has, its job gets a refusal. Throws kUsage if a folder has no assets, and kInput if it
+// cannot be read.
 JobList asset_jobs(const ConvertOptions& options, const Listing* listing);
 
 // Returns the assets of a folder as a manifest lists them. `format` is the target of OBJ files, or empty.

@@ -9,8 +9,8 @@
 namespace remap {
 namespace {
 
-// A converter is identified by this many texels. A changed number that the hash of their results misses would
-// affect only values between them.
+// The hash of a converter covers its results for this many texels. If a number of the converter changes, the
+// hash misses this only if no result for these texels changes.
 constexpr std::size_t kProbed = 4096;
 
 // Returns term `index` of the additive recurrence of dimension `row` (Weyl 1916, with roots of primes). The

@@ -12,12 +12,13 @@ namespace remap {
 struct ConversionNote {
   std::string source, target;  // names of models
   std::string hash;            // hash of everything, including the converter's results
-  // These are the differences that a message shows: converter, options, version.
+  // If two notes differ, a message shows which of these differ: converter, options, version.
   std::vector<std::pair<std::string, std::string>> details;
 };
 
-// Makes a note. The hash holds the converter's results for texels all over its domain, so it covers numbers
-// and code. `ids` are its steps, or empty for assets. `options` are the ones that the results depend on.
+// Makes a note. Its hash covers the converter's results for texels all over its domain, so it notices changed
+// numbers and changed code. `ids` are the ids of the steps, or empty for assets. `options` are the options
+// that change results.
 ConversionNote conversion_note(const std::string& source, const std::string& target, const std::string& ids,
                                const Converter& converter, const std::string& options);
 

@@ -19,8 +19,8 @@ std::vector<Parameter> colors_among(std::vector<Parameter> parameters) {
   return parameters;
 }
 
-// Returns the color space of each of `colors` that `words` name. Throws kUsage for a word that applies to
-// none of them. `reason` ends the message: "no specular is written".
+// Returns the color spaces that `words` give to `colors`. Throws kUsage for a word that applies to none of
+// these colors. `reason` ends the message, for example "no specular is written".
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {
@@ -51,7 +51,7 @@ std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
     return !is_map && options.folder.empty();
   });
   return color_spaces("--color-space", options.color_spaces, colors,
-                      "is read from a map (for results: --output-color-space)");
+                      "is read from a map (for results, use --output-color-space)");
 }
 
 // Throws for the first source parameter without an option.
@@ -72,10 +72,10 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
 // Refuses maps and numbers that the conversion does not read.
 void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const auto refuse_map = [](const std::string& option, bool is_result) {
-    throw Error(ErrorKind::kUsage,
-                option + ": has no effect, because the source material has no " +
-                    option.substr(2, option.find("-factor") - 2) +
-                    (is_result ? " (it is a result of this conversion)" : " (remove this option)"));
+    throw Error(ErrorKind::kUsage, option + ": has no effect, because the source material has no " +
+                                       option.substr(2, option.find("-factor") - 2) +
+                                       (is_result ? " (this conversion writes it; remove this option)"
+                                                  : " (remove this option)"));
   };
   const std::vector<Parameter> targets = workflow.targets();
   for (const Parameter parameter :
@@ -96,7 +96,7 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
   for (const InputWord& word : options.inputs) refuse_input("--input", word.parameter);
 }
 
-// Refuses options for a folder if there is one set, and maps that cannot be used with a folder.
+// Refuses options of folders if there is only one set, and maps that cannot be used with a folder.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool is_tree = !options.folder.empty();
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");

@@ -15,13 +15,14 @@ namespace remap {
 
 // Each function throws kUsage, with the option, for an invalid value.
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
-// Returns the option for one channel of a map: `--roughness '*_rough.jpg:G'`. It is empty without a file.
+// Returns an option that reads one channel of the map, such as `--roughness '*_rough.jpg:G'`. Returns an
+// empty text if `file` is empty.
 std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // Returns the files to copy if the options name one set.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
-// A CopiedNormals is the copy of a normal map of a folder. Green is inverted if its direction differs from
-// the target's, unless the folder has that map as well. The name of the map decides the direction, otherwise
-// the source does.
+// A CopiedNormals is the copy of a normal map in a folder. The direction of green comes from the name of the
+// map, otherwise from the source model. If the target has the other direction, the copy has inverted green,
+// unless the folder already has a map with that direction.
 struct CopiedNormals {
   CopiedFile copy;
   std::string reason;  // why green is inverted, or kept although nothing is known; or empty
@@ -41,10 +42,10 @@ void apply(const TranslationEffect& effect, TargetChoice& choice);
 // A WidthSource is the roughness of a set before the conversion.
 struct WidthSource {
   std::filesystem::path file;                   // empty for a number
-  std::optional<RoughnessEncoding> convention;  // if an option or the file name states it
+  std::optional<RoughnessEncoding> convention;  // set if an option or the file name states it
 };
-// Returns the encoding of the roughness results of a set: `usual`, or the one of --output-encoding. Names
-// stay true: a map of glossiness that keeps its name stays glossiness, orm and arm hold roughness, specgloss
+// Returns the encoding of a set's roughness results: --output-encoding, or `usual` without this option. Names
+// stay true. A glossiness map that keeps its name stays glossiness, orm and arm hold roughness, and specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
                                 const WidthSource& source, RoughnessEncoding usual);

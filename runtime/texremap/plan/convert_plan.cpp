@@ -104,7 +104,8 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   return manifest;
 }
 
-// Returns values as numbers from 0 to 1. A single value up to 100 is per cent; others are 0 to 255.
+// Returns values as numbers from 0 to 1. Treats a single value up to 100 as per cent, and other values as 0
+// to 255.
 std::string fractions_text(const std::vector<float>& values) {
   const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
   std::string text;
@@ -179,6 +180,11 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
                                                      pass_options(options),
                                                      options.output_roughness_factor.has_value()});
   const ChosenConverter& chosen = sets.chosen;
+  const auto name = [](const ModelName& typed, const ModelSide& side) {
+    return typed.alias != nullptr ? std::string(typed.word()) : side.model;
+  };
+  sets.source_name = name(options.from, chosen.info().source);
+  sets.target_name = name(options.to, chosen.info().target);
   require_fractions(sets.request, chosen.info());
   for (const std::string& text : chosen.workflow.assumptions) plan.messages.push_back("warning: " + text);
   for (const std::string& text : chosen.workflow.notes) plan.messages.push_back("note: " + text);
@@ -206,7 +212,8 @@ void refuse_engine(const ConvertOptions& options) {
       " (use --to gltf, which engines import, or export the textures and convert their folder)");
 }
 
-// Fills in missing options: without --to, assets become gltf. Without --output the second path is the result.
+// Fills in missing options. Without --to, assets become gltf. Without --output, the second path is the
+// result.
 void complete_asset_options(ConvertOptions& options) {
   const bool is_gltf = options.to.empty() || options.to.name == "metallic";
   if (engine_layout_of(options.to.word()) == nullptr && is_gltf)

@@ -1,5 +1,5 @@
-// ConvertPlan holds what a run of `texremap convert` does. The options are resolved here once, so the code
-// that runs and reports does not know them.
+// ConvertPlan holds what a run of `texremap convert` does. All options are interpreted here, so that the code
+// that runs and reports needs no options.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,11 @@ namespace remap {
 struct SetPlan {
   UsedConverters converters;  // `chosen` is made from them
   ChosenConverter chosen;
-  TextureSetRequest request;      // request by options, for one set or for all sets of a folder
-  TargetChoice targets;           // members that differ between sets are still missing
-  PassOptions pass;               // target_convention: from --output-encoding
+  TextureSetRequest request;      // what the options request, for one set or for all sets of a folder
+  TargetChoice targets;           // members that differ between sets are not set yet
+  PassOptions pass;               // target_convention comes from --output-encoding
   bool scales_exponents = false;  // true if the exponent that a stored 1 means is known for the results
+  std::string source_name = {}, target_name = {};  // aliases that the user typed, otherwise the models
 };
 
 struct ConvertPlan {

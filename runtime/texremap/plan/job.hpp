@@ -27,18 +27,18 @@ struct SetWork {
   std::vector<CopiedFile> copies;
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   std::vector<std::string> notes;                  // which map was chosen out of several
-  std::optional<TranslationEffect> effect = {};    // of a translation of surfaces
+  std::optional<TranslationEffect> effect = {};    // what a translation between surfaces changes in this set
 };
 
-// An AssetWork is an asset and its result. Files that it names are read below `input_root` and written to the
-// same places below `output_root`.
+// An AssetWork is an asset and its result. The files that the asset names are read below `input_root`, and
+// copied to the same places below `output_root`.
 struct AssetWork {
   std::filesystem::path input, output;
   std::filesystem::path input_root, output_root;
-  std::string image_prefix = {};                  // prefix of new images beside it
-  std::vector<std::filesystem::path> files = {};  // existing files that it names, if there are several assets
+  std::string image_prefix = {};                  // prefix of the new images beside the result
+  std::vector<std::filesystem::path> files = {};  // existing files that it uses, if there are several assets
 
-  // Returns the path of the copy that the result uses for `file`, a file below the input root.
+  // Returns the path of the copy of `file`, which lies below the input root.
   std::filesystem::path copy_of(const std::filesystem::path& file) const {
     return output_root / file.lexically_relative(input_root.lexically_normal());
   }
@@ -51,12 +51,12 @@ struct Job {
   // Messages use display_path().
   std::string name;
   std::string tile = {};     // number of the tile, or empty
-  std::string owner = {};    // owner of its result names in WrittenNames; set names may repeat
+  std::string owner = {};    // owner of the results in WrittenNames, because two sets may have one name
   ListedSizes listed = {};   // sizes of files from a manifest
-  std::string refusal = {};  // why it is not converted, or empty
+  std::string refusal = {};  // why the job is not converted, or empty
   std::variant<SetWork, AssetWork> work = {};
 
-  // Returns the folders of its results and copies.
+  // Returns the folders of the results and copies.
   std::vector<std::filesystem::path> folders() const;
 };
 
@@ -71,11 +71,12 @@ struct JobList {
   std::vector<Job> jobs;  // the tiles of a set are neighbours
   std::shared_ptr<WrittenNames> names = std::make_shared<WrittenNames>();  // results, inputs and copies
   std::vector<SkippedEntry> skipped;
-  std::vector<std::string> notes;                   // about all sets
+  std::vector<std::string> notes;                   // about all sets together
   std::vector<std::filesystem::path> unrecognised;  // images of a folder that match no naming convention
   std::size_t asset_count = 0;                      // unconverted assets in a folder of sets
-  bool is_of_folder = false;       // of a folder or a manifest: the output folder belongs to this conversion
-  bool has_several = false;        // a job that fails does not stop the others
+  // If the jobs come from a folder or a manifest, the output folder belongs to this conversion.
+  bool is_of_folder = false;
+  bool has_several = false;        // if one job fails, the others go on
   std::string tile_noun = "tile";  // "frame" for sequences
 };
 

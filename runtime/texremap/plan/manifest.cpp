@@ -129,7 +129,7 @@ Json head_json(const ManifestHead& head) {
           {"hash", head.hash}};
 }
 
-// Hashes the first line except the hash itself. The other lines are added.
+// Hashes the first line, except for the hash itself. The caller adds the other lines.
 ContentHash hash_of_head(ManifestHead head) {
   head.hash.clear();
   ContentHash hash;
@@ -137,7 +137,8 @@ ContentHash hash_of_head(ManifestHead head) {
   return hash;
 }
 
-// An UnsafeName is a name that somebody wrote into the manifest to lead out of the tree.
+// An UnsafeName is a name in a manifest that leads out of the tree. Somebody may have written it there on
+// purpose.
 struct UnsafeName {
   std::string message;
 };
@@ -155,7 +156,7 @@ class ManifestReader {
   void add_asset(const Field& field, Listing& listing) const;
   void add_rest(const Field& field, Listing& listing) const;
   std::uint64_t cost_in(std::string_view line) const;
-  // `checked` is safe_relative or safe_name.
+  // `checked` is safe_relative() or safe_name().
   fs::path safe(const Field& field, fs::path (*checked)(const std::string&, const std::string&)) const {
     const std::string& text = field.any_text();
     try {
@@ -270,7 +271,7 @@ TreeManifest ManifestReader::read(const Part& part) {
   } catch (const UnsafeName& name) {
     throw input_error(name.message);
   } catch (const Error&) {
-    refuse(kChanged);  // an unreadable line means that the file has changed
+    refuse(kChanged);  // if a line cannot be read, the file has changed
   }
   if (hash.hex() != manifest.head.hash) refuse(kChanged);
   return manifest;
@@ -336,7 +337,8 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
                       ": the name is not UTF-8, so a manifest cannot list it (rename it)");
   const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
-  // The hash precedes the lines. They are made twice and not kept, because a manifest may have gigabytes.
+  // The hash comes before the lines. So the lines are made twice, because a manifest may be too large to
+  // keep.
   const auto make_lines = [&](const auto& take) {
     for (const ListedEntry<FoundSet>& set : sets) take(line_of(set));
     for (const ListedEntry<ListedAsset>& asset : assets) take(line_of(asset));

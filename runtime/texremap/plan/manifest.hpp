@@ -29,7 +29,7 @@
 
 namespace remap {
 
-// This is the cost of opening, writing and renaming a small file, in bytes of a large one (docs/farm.md).
+// This is what a small file costs to open, write and rename, in bytes of a large file (docs/farm.md).
 inline constexpr std::uint64_t kCostOfFile = 200'000;
 
 enum class ListedKind { kSets, kAssets };
@@ -51,13 +51,13 @@ struct ManifestHead {
 };
 
 struct ListedAsset {
-  std::filesystem::path path;                // relative to the root
-  std::string image_prefix;                  // prefix of new images beside it; depends on the whole tree
-  std::vector<std::filesystem::path> files;  // existing files that it names, relative to the root
+  std::filesystem::path path;  // relative to the root
+  std::string image_prefix;    // prefix of the new images beside the result; depends on the whole tree
+  std::vector<std::filesystem::path> files;  // existing files that the asset names, relative to the root
 };
 
-// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. Problems are in
-// `found`.
+// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. `found` also has the
+// files that cannot be read.
 struct Listing {
   ListedKind kind = ListedKind::kSets;
   Discovery found;
@@ -72,8 +72,8 @@ struct TreeManifest {
   std::vector<std::uint64_t> costs;  // costs of the entries of the part
 };
 
-// Returns the part of `count` to which an entry belongs. It is the part whose share of the cost contains the
-// entry's middle.
+// Returns the part of `count` to which an entry belongs. The costs of all entries, one after another, are cut
+// into `count` equal pieces. An entry belongs to the piece that has the middle of its cost.
 std::size_t part_of_entry(std::uint64_t cost_before, std::uint64_t cost, const ManifestHead& head,
                           std::size_t count);
 

@@ -32,7 +32,8 @@ std::vector<MapUse> those(const std::vector<MapUse>& found, Wanted wanted) {
   return kept;
 }
 
-// A KeptUse is the only use that is kept, with the reason. The reason is empty if the user asked for it.
+// A KeptUse is the only map that is kept for a parameter, with the reason. The reason is empty if the user
+// asked for this map.
 struct KeptUse {
   MapUse use;
   std::string reason;
@@ -73,7 +74,7 @@ void drop(FoundSet& set, const MapUse& use) {
   });
 }
 
-// Returns the source model for the roles of the maps, or an empty text.
+// Returns the source model whose maps these are, or an empty text.
 std::string model_of_maps(bool metallic, bool base_color, bool specular, bool glossiness, bool diffuse) {
   if (metallic || (base_color && !specular)) return "metallic";
   if (specular && glossiness) return "gltf-specgloss";
@@ -91,7 +92,7 @@ std::string model_of_set(const FoundSet& set) {
 
 namespace {
 
-// Roles that are inputs of surfaces as well.
+// These roles are also inputs of surfaces.
 constexpr std::array<std::pair<Role, std::string_view>, 2> kRolesOfInputs = {
     {{Role::kIor, "ior"}, {Role::kTransmission, "transmission_weight"}}};
 

@@ -14,10 +14,11 @@ namespace remap {
 // returned, because some sets call their base color diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter);
 
-// Keeps one of several maps that hold a parameter. First comes the one that a word of `prefer` names (a role,
-// or a part of the file name). Next is the parameter of the model itself (roughness before glossiness, or the
-// reverse for `own` glossiness). Then a separate map comes before a channel of a packed one. If several
-// remain, all are kept. Returns a line for each choice that the user did not ask for.
+// Keeps one of several maps that hold a parameter. A map that a word of `prefer` names (by its role, or by a
+// part of the file name) wins. Otherwise, the map with the model's own parameter wins: roughness before
+// glossiness, or the reverse if `own` is glossiness. Otherwise, a separate map wins over a channel of a
+// packed map. If several maps remain, all are kept. Returns a line for each choice that the user did not ask
+// for.
 std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& prefer,
                                      std::optional<RoughnessEncoding> own);
@@ -26,7 +27,7 @@ std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>
 // the map options.
 struct InferredSource {
   std::string model;  // `metallic`, `gltf-specgloss`, `specular`
-  std::string note;   // the reason
+  std::string note;   // why texremap infers this model
 };
 // Throws kUsage if the source is unclear, or if sets of the folder differ.
 InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets);

@@ -106,7 +106,8 @@ class SetJobs {
   bool takes_names(const FoundSet& set);
   void note_sizes(Job& job) const;
   void require_encoding_used() const;
-  // Returns an option's map for a parameter: one for all sets, or a pattern. Otherwise returns null.
+  // Returns the map that an option gives for a parameter: one map for all sets, or a pattern. Returns null if
+  // there is none.
   const MapName* given_map(Parameter parameter) const {
     const MapSource* source = options_.map_of(parameter);
     return source != nullptr ? std::get_if<MapName>(source) : nullptr;
@@ -133,7 +134,7 @@ class SetJobs {
   Discovery found_;
   std::vector<FoundSet> converted_;
   bool is_in_place_ = same_file(options_.output, root_);    // results lie beside the maps
-  std::map<std::string, std::vector<CopiedFile>> normals_;  // keyed by the reason for the treatment of green
+  std::map<std::string, std::vector<CopiedFile>> normals_;  // keyed by why green is inverted or kept
   JobList jobs_;
 };
 
@@ -151,7 +152,7 @@ JobList SetJobs::list() {
   leave_out_read();
   if (!found_.sizes.empty())
     for (Job& job : jobs_.jobs) note_sizes(job);
-  if (options_.part) return std::move(jobs_);  // a part cannot report about all sets
+  if (options_.part) return std::move(jobs_);  // a part does not see all sets
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.skipped.empty())
     throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
@@ -160,7 +161,8 @@ JobList SetJobs::list() {
   return std::move(jobs_);
 }
 
-// Returns a file of a set from a pattern: `*` is the name of the set, `<UDIM>` the number of the tile.
+// Returns the file of a set that a pattern means: `*` is the name of the set, `<UDIM>` the number of the
+// tile.
 fs::path named_after(const fs::path& pattern, const FoundSet& set, const std::string& number) {
   std::string name = pattern.string();
   const auto put = [&name](std::string_view token, const std::string& text) {
@@ -184,7 +186,7 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-// Returns the file that an option gives for a set: one for all sets, or one in the folder of the set.
+// Returns the file that an option gives for a set: a file for all sets, or a file in the folder of the set.
 fs::path SetJobs::file_of_set(const fs::path& given, const FoundSet& set, const std::string& number) const {
   return shared_map(options_, given).value_or(root_ / set.folder / named_after(given, set, number));
 }
@@ -312,7 +314,8 @@ void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::str
   jobs_.jobs.push_back(std::move(job));
 }
 
-// Returns true if a channel of a converted packed map holds something else of the material (ORDp: height).
+// Returns true for a channel of a converted packed map that holds a property without a place in results (in
+// ORDp: height).
 bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const {
   constexpr std::array kRest = {Role::kCavity,       Role::kHeight,     Role::kOpacity, Role::kEmissive,
                                 Role::kTransmission, Role::kSubsurface, Role::kIor};
@@ -353,7 +356,7 @@ bool is_normal(const FoundMap& map) {
          name.find("normal") != std::string::npos;  // normal map of a coat
 }
 
-// Adds one line for all maps with the same reason.
+// Adds one note for all normal maps with the same reason.
 void SetJobs::note_normals() {
   for (const auto& [reason, maps] : normals_) {
     const CopiedFile& first = maps.front();
@@ -365,7 +368,8 @@ void SetJobs::note_normals() {
   }
 }
 
-// Copies or reports files that the conversion does not read. A map without tiles goes with the first tile.
+// Copies or reports files that the conversion does not read. A map without tiles is copied with the first
+// tile.
 void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
   const std::vector<fs::path*> read = files_of(work);
   const bool is_first = tile == tiles_of(set).front();
@@ -406,8 +410,8 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
 }
 
-// Returns the files that the conversion of a set writes, each with one of its source maps. Tiles are one
-// file.
+// Returns the files that the conversion of a set writes, each with one of its source maps. All tiles of a map
+// are one entry.
 std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
   const std::string end =
@@ -453,8 +457,8 @@ void SetJobs::require_encoding_used() const {
                 "the encoding (remove this option)");
 }
 
-// Reserves the names of a set's results, and of copies of its maps. Adds a message and returns false if
-// another set has one of them.
+// Reserves the names of a set's results, and of copies of its maps. If another set has one of these names,
+// adds a message and returns false.
 bool SetJobs::takes_names(const FoundSet& set) {
   const auto take = [&](const fs::path& path, const fs::path& source) {
     const std::string other = jobs_.names->take(path, owner(set));

@@ -7,9 +7,14 @@ namespace {
 
 // Returns the words of the command line.
 ConversionWords option_words() {
-  return {
-      "--from",       "--to", "--from-workflow", "--to-workflow", "--dielectric-f0", "--diffuse-convention",
-      "texremap list"};
+  return {"--from",
+          "--to",
+          "--via",
+          "--from-workflow",
+          "--to-workflow",
+          "--dielectric-f0",
+          "--diffuse-convention",
+          "texremap list"};
 }
 
 void require_estimable(const WorkflowChoice& choice) {
@@ -30,8 +35,8 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
   if (!choice.translation)
     refuse(
         options, kNeedsTranslation,
-        ": needs openpbr or standard-surface as --from or --to, and blender, gltf, usd or one of both as the "
-        "other end (convert to openpbr first)");
+        ": --from or --to must be openpbr or standard-surface, and the other option one of these, blender, "
+        "gltf or usd (for other models, convert to openpbr first)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because every input is translated (remove this option)");

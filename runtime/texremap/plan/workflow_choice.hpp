@@ -20,9 +20,9 @@ struct WorkflowChoice : ConversionChoice {
   bool f0_given = false;
 };
 
-// Resolves `--from` and `--to`, which are optional with `--fit`. A renderer as `--to` means the closest of
-// its models, by paths through `--via`. Throws kUsage for an unknown name, and for a workflow that
-// contradicts the named model. Also throws it for options that require a workflow if neither end has one.
+// Resolves `--from` and `--to`, which are optional with `--fit`. If `--to` is a renderer, chooses its closest
+// model, on paths through `--via`. Throws kUsage for an unknown name, for a workflow that contradicts the
+// named model, and for options that require a workflow if neither end has a workflow.
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
 // Returns the choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the
@@ -32,7 +32,8 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
 struct ModelPair {
   std::string source, target;
 };
-// Throws kUsage if the models of the fit in `file` differ from `asked`. An empty name accepts any model.
+// Throws kUsage if the models of the fit in `file` differ from `asked`. An empty name in `asked` accepts any
+// model.
 void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own);
 
 }  // namespace remap

@@ -13,7 +13,7 @@ Json position_json(const std::optional<TexelPosition>& texel) {
   return texel ? Json{texel->x, texel->y} : Json();
 }
 
-// Returns the first result that `holds` accepts, or null.
+// Returns the first result for which `holds` returns true, or null.
 template <typename Holds>
 Json file_json(const JobReport& report, const Holds& holds) {
   const auto found = std::find_if(report.results.begin(), report.results.end(), holds);

@@ -11,14 +11,14 @@
 
 namespace remap {
 
-// An Outcome is the outcome of the whole run.
+// An Outcome holds the reports, the time and the use of resources of a whole run.
 struct Outcome {
   const ConvertPlan& plan;
   std::vector<JobReport> reports;
   double seconds = 0.0;
   ResourceUse used;
 
-  ColorNotes colors() const;         // of all sets
+  ColorNotes colors() const;         // color spaces of all sets
   std::size_t failed_count() const;  // failed entries, and failures among the skipped entries
 };
 
@@ -27,7 +27,7 @@ std::string_view state_text(const ConvertPlan& plan, const JobReport& report);
 
 // Returns converter and path for texture sets, and the target for assets.
 Json conversion_json(const ConvertPlan& plan);
-// Returns a set or an asset.
+// Returns the JSON object for a set or an asset.
 Json job_json(const ConvertPlan& plan, const JobReport& report);
 Json summary_json(const Outcome& outcome);
 // Returns colors, instruction set, time and memory.

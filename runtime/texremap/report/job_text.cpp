@@ -33,11 +33,11 @@ std::string material_text(const ChosenConverter& chosen) {
   return text;
 }
 
-// Returns the domain that some texels were outside of.
+// Returns the domain that some texels are outside of.
 std::string outside_text(const ChosenConverter& chosen) {
   const std::string domain = domain_text(chosen.domain());
-  return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
-                                       : "the domain of a step (path: " + domain + ")";
+  return chosen.path.steps.size() <= 1 ? "the measured range (" + domain + ")"
+                                       : "the measured range of a step (path: " + domain + ")";
 }
 
 std::string first_text(const MapStatistics& counts) {
@@ -108,7 +108,8 @@ std::string value_text(const SurfaceValue& value) {
   return text;
 }
 
-// Prints the inputs that the shader needs beside the maps, and those that it cannot show.
+// Prints the inputs that the user must set in the shader, because no map holds them. Also prints the inputs
+// that have no effect in the target.
 void print_effect(const ConvertPlan& plan, const std::string& context, const TranslationEffect& effect) {
   const std::string& target = plan.sets()->chosen.info().target.model;
   std::vector<std::string> values;
@@ -147,18 +148,18 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
     if (is_told(count)) line(count, what, noun);
   };
   if (plan.verbose)
-    line(counts.masked_count, " with an opacity of 0, which are converted and do not count here");
+    line(counts.masked_count, " with opacity 0 are converted, but not counted in these lines");
   visible_line(counts.above_one_count,
-               " reflect more than 1; clamped to 1 (put emission into a map for itself)");
-  visible_line(counts.out_of_domain_count, " outside " + outside_text(chosen) +
-                                               ": roughness clamped, specular extrapolated in proportion");
+               " reflect more than all light; clamped to 1 (put emission into a separate map)");
+  visible_line(counts.out_of_domain_count,
+               " outside " + outside_text(chosen) + ": roughness is clamped, specular extrapolated");
   line(counts.nan_count, " with NaN" + first_text(counts));
   line(counts.infinite_count, " with infinite values" + first_text(counts));
   line(counts.negative_count, " with negative values" + first_text(counts));
   visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
 }
 
-// Below this value no picture shows the error of a material.
+// A picture does not show an error below this value.
 constexpr double kShownError = 5e-4;
 
 std::string error_text(const AssetMaterial& material) {
@@ -186,8 +187,7 @@ std::string outcome_text(const JobReport& report, bool dry_run) {
                          ? "nothing to convert, " + verb + "copied"
                          : counted(converted, "material") + " " + verb + "converted";
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
-  if (untouched > 0)
-    text += ", " + std::to_string(untouched) + " left as " + (untouched == 1 ? "it is" : "they are");
+  if (untouched > 0) text += ", " + std::to_string(untouched) + " unchanged";
   if (report.results.empty()) return text + "; nothing " + verb + "written";
   if (!dry_run) text += " in " + fixed(report.seconds, 2) + " s";
   text += ": " + display_path(report.results.front().path);
@@ -251,7 +251,7 @@ void print_colors(const ColorNotes& colors, bool has_several) {
       if (note.reason == TransferReason::kUser)
         phrase += is_written ? " (--output-color-space)" : " (--color-space)";
       if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
-        phrase += is_written ? " (as the map that it follows)" : " (tagged so by the file)";
+        phrase += is_written ? " (as in the source map)" : " (as the file's tag states)";
       const auto known = std::find_if(phrases.begin(), phrases.end(),
                                       [&](const auto& entry) { return entry.first == phrase; });
       if (known == phrases.end())

@@ -14,7 +14,7 @@ class WarningKinds {
  public:
   // Returns true if the warning is one of the first of its kind, and its kind is one of the first kinds.
   bool is_new(const std::string& warning);
-  // Returns how many were not.
+  // Returns how many warnings were not new.
   std::size_t repeated() const;
 
  private:
@@ -31,7 +31,7 @@ std::string converter_text(const ChosenConverter& chosen);
 void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& warnings);
 
 // Prints one line about the color spaces of the run: `color: specular read as srgb, base_color written as
-// srgb`. Prints nothing if all colors are floating-point numbers without a choice of the user.
+// srgb`. Prints nothing if all colors are floating-point numbers and the user chose no color space.
 void print_colors(const ColorNotes& colors, bool has_several);
 
 }  // namespace remap

@@ -16,10 +16,10 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// texremap plan never makes more.
+// texremap plan never makes more parts.
 constexpr std::size_t kMostReports = 1'000'000;
 
-// Messages show this many cases of a kind, and then the total.
+// Messages show this many cases of a kind, and then the number of all cases.
 constexpr std::size_t kNamed = 8;
 
 std::string named(const std::vector<std::string>& all) {
@@ -47,12 +47,12 @@ class ReportMerger {
   const fs::path output_, folder_;
   const std::function<void(std::string_view)>& take_;
   MergedReport merged_;
-  std::map<std::string, std::string> first_;  // the run according to the first report
+  std::map<std::string, std::string> first_;  // properties of the run in the first report
   Part first_part_;
-  std::size_t lines_of_part_ = 0;                         // about sets, in the current report
+  std::size_t lines_of_part_ = 0;                         // lines about sets in the current report
   std::unordered_map<std::string, std::size_t> part_of_;  // keyed by the name of a set or result
   std::map<std::string, std::pair<std::size_t, std::string>>
-      twice_;  // keyed by a pair of parts: the number and the first case
+      twice_;  // keyed by a pair of parts: number of cases, and the first case
 };
 
 std::vector<Part> ReportMerger::parts_found() const {
@@ -129,7 +129,7 @@ void ReportMerger::add(const Part& part, const Field& line, std::string_view tex
   if (line.contains("summary")) {
     const Field summary = line["summary"];
     merged_.processor_seconds += summary["processor_seconds"].number();
-    constexpr std::int64_t kMost = std::int64_t{1} << 40;  // small enough for the sum to be a number, too
+    constexpr std::int64_t kMost = std::int64_t{1} << 40;  // small enough for a sum over all parts
     const std::string entries(name_of(kListedKinds, merged_.kind));
     const std::int64_t stated =
         std::min(summary[entries].count(), kMost) + std::min(summary["skipped"].count(), kMost);
@@ -153,7 +153,7 @@ void ReportMerger::read(const Part& part) {
   lines_of_part_ = 0;
   try {
     const OwnedFile file(output_, fs::path(kPartsFolder) / name, OwnFile::kRead);
-    if (!file.exists()) throw input_error(name + ": is incomplete");  // removed meanwhile
+    if (!file.exists()) throw input_error(name + ": is incomplete");  // the file was removed meanwhile
     const InputFile content = file.content();
     InputLines lines(content);
     bool is_whole = false;

@@ -20,7 +20,7 @@ Json part_json(const GivenPart& part, const ManifestHead& manifest, const Conver
 // Writes the report of a finished part of the conversion to `output`. Throws kOutput.
 void write_part_report(const std::filesystem::path& output, const Part& part, const std::string& lines);
 
-// A MergedReport is the result of merge_reports(): one report of all parts.
+// A MergedReport is one report of all parts.
 struct MergedReport {
   ListedKind kind = ListedKind::kSets;
   std::size_t part_count = 0, entry_count = 0;  // numbers from the manifest

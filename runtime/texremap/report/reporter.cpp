@@ -55,17 +55,17 @@ void print_summary(const Outcome& outcome, const WarningKinds& warnings) {
     texels += report.statistics.texel_count;
     materials += report.count(MaterialState::kConverted);
   }
+  const SetPlan* sets = plan.sets();
+  if (plan.verbose && sets != nullptr) say("converter: " + converter_text(sets->chosen));
+  if (plan.verbose && !plan.dry_run)
+    say((sets == nullptr ? counted(materials, "material") : counted(texels, "texel")) + ", " +
+        fixed(outcome.used.processor_seconds, 2) + " s of processor time");
   std::string text =
-      counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted") +
-      (plan.sets() == nullptr ? ""
-                              : (plan.sets()->chosen.workflow.is_material() ? " from " : " by ") +
-                                    converter_text(plan.sets()->chosen)) +
-      ", " + std::to_string(outcome.failed_count()) + " failed";
+      counted(done, noun_of(list.kind)) + (plan.dry_run ? " would be converted" : " converted");
+  if (sets != nullptr) text += " from " + sets->source_name + " to " + sets->target_name;
+  if (!plan.dry_run) text += " in " + fixed(outcome.seconds, 2) + " s";
+  text += ", " + std::to_string(outcome.failed_count()) + " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
-  if (!plan.dry_run)
-    text += "; " + (plan.sets() == nullptr ? counted(materials, "material") : counted(texels, "texel")) +
-            " in " + fixed(outcome.seconds, 2) + " s, " + fixed(outcome.used.processor_seconds, 2) +
-            " s of processor time";
   say(text);
 }
 
@@ -78,7 +78,7 @@ void require_success(const Outcome& outcome) {
     if (!list.has_several)
       throw input_error(display_path(outcome.reports.front().name) + ": " +
                         *outcome.reports.front().failure_text());
-    int passing = 0;  // code of the first failure that may pass in another run
+    int passing = 0;  // errno of the first failure that may not happen in another run
     for (const JobReport& report : outcome.reports)
       if (passing == 0 && report.failure && is_retryable(report.failure_code)) passing = report.failure_code;
     throw Error(
@@ -145,7 +145,7 @@ void Reporter::write(const Json& line) {
 }
 
 void Reporter::add(const JobReport& report) {
-  if (!plan_.list.has_several) return;  // finish() knows the time of all
+  if (!plan_.list.has_several) return;  // finish() prints it, with the time of the whole run
   print_job(plan_, report, warnings_);
   write({{noun_of(plan_.list.kind), job_json(plan_, report)}});
 }
@@ -227,7 +227,7 @@ void print_converted_numbers(const ConvertPlan& plan) {
   }
   const bool in_domain = convert_maps(chosen.converter(), maps).out_of_domain_count == 0;
   if (!plan.quiet && !in_domain)
-    say("warning: the values are outside the domain (" + domain_text(chosen.domain()) + ")");
+    say("warning: the values are outside the measured range (" + domain_text(chosen.domain()) + ")");
   const std::string note = note_text(chosen.path, chosen.closer);
   if (!plan.quiet && !note.empty()) say("note: " + note);
   print_numbers(plan, values, in_domain);

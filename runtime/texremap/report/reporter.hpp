@@ -23,8 +23,8 @@ class Reporter {
   explicit Reporter(const ConvertPlan& plan);
   // Prints a set or asset as soon as it is finished. Only one thread at a time may call it.
   void add(const JobReport& report);
-  // Prints the summary of all of them. Throws kInput if something failed, and kOutput if the report of a part
-  // cannot be written.
+  // Prints the summary of all sets or assets. Throws kInput if one of them failed, and kOutput if the report
+  // of a part cannot be written.
   void finish(std::vector<JobReport> reports);
 
  private:

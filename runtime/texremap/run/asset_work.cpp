@@ -102,12 +102,12 @@ class AssetWorker final : public JobWorker {
   }
 
  private:
-  // Returns true if the results are complete. Copies are compared with their sources, because several assets
-  // may share a copy. Files that only converted materials used have no copy.
+  // Returns true if the results are complete. Compares copies with their sources, because several assets may
+  // share a copy. Expects no copies of files that only converted materials used.
   bool is_done(const AssetWork& asset, const std::string& inputs, std::vector<AssetResource> named) const {
     if (!folder_.is_done(inputs, folder_.files_of(asset.name()))) return false;
     const bool is_new_format =
-        asset.input.extension() != asset.output.extension();  // the result names other files
+        asset.input.extension() != asset.output.extension();  // the result uses other files
     if (is_new_format) return true;
     std::set<std::string> kept;
     for (const AssetResource& resource :
@@ -117,7 +117,7 @@ class AssetWorker final : public JobWorker {
     return plan_resources(asset, named, [](const fs::path&) {}).copies.empty();
   }
 
-  // Writes the asset last, so that it never lies without its parts.
+  // Writes the asset last, so that it never exists without the files that it names.
   void write(const AssetWork& asset, const ByteSource& source, const AssetConversion& conversion,
              const JobReport& report, const ResourcePlan& beside, const std::string& inputs) {
     std::vector<std::unique_ptr<NewFile>> files;
@@ -133,7 +133,7 @@ class AssetWorker final : public JobWorker {
         add_pieces(*files.back(), {{"", 0, source.size()}}, source);
     }
     for (const std::unique_ptr<NewFile>& file : files) file->finish();
-    folder_.begin(report.copies);  // so that a later run knows them
+    folder_.begin(report.copies);  // a later run then knows that it wrote them
     for (const ResourceCopy& copy : beside.copies) copies_.copy(copy);
     const Flush flush = folder_.has_journal() ? Flush::kNo : Flush::kYes;
     std::vector<FinishedFile> finished;

@@ -23,7 +23,7 @@ namespace {
 
 std::atomic<bool> uses_processes = false;
 
-// An Answer is a message of a copy about its job.
+// An Answer is a message from a copied process about its job.
 struct Answer {
   enum class Kind { kShare, kResult, kError } kind = Kind::kShare;
   double share = 0.0;
@@ -70,7 +70,7 @@ class Messages {
   std::string bytes_;
 };
 
-// Runs in a copy: does one job after another until the main process closes the stream.
+// Runs in a copied process. Does one job after another until the main process closes the stream.
 void serve(int descriptor, const ApartJobs& jobs) {
   Messages requests;
   for (;;) {
@@ -91,7 +91,7 @@ void serve(int descriptor, const ApartJobs& jobs) {
   }
 }
 
-// A Copies holds the copies of a run, and their current jobs.
+// A Copies holds the copied processes of a run, and their current jobs.
 class Copies {
  public:
   Copies(const ApartJobs& jobs, std::size_t most) : jobs_(jobs), copies_(most) {}
@@ -140,7 +140,7 @@ class Copies {
     if (!copy.process) return false;
     copy.job = again_.empty() ? next_++ : again_.back();
     if (!again_.empty()) again_.pop_back();
-    (void)send_message(copy.process->descriptor, packed(*copy.job));  // hear() detects an ended process
+    (void)send_message(copy.process->descriptor, packed(*copy.job));  // hear() notices an ended process
     return true;
   }
 
@@ -154,7 +154,7 @@ class Copies {
     if (!copy.job) return;
     const std::size_t job = *copy.job;
     copy.job.reset();
-    // If memory runs out, the system kills a process with signal 9. Otherwise, a person did so.
+    // Signal 9 comes from the system if memory runs out, otherwise from a person.
     jobs_.clean(job);
     const bool is_killed = how.starts_with("by signal 9 ");
     if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);

@@ -14,10 +14,10 @@ void use_job_processes();
 struct ApartJobs {
   std::size_t count = 0;
   unsigned at_once = 0;  // 0: one per processor
-  // Does job `i` and returns its result (packed_values.hpp), in another process or thread. `advance` reports
-  // the finished fraction of the job, from 0 to 1, to this one.
+  // Does job `i` in another process or thread, and returns its result (packed_values.hpp). `advance` reports
+  // the finished fraction of the job, from 0 to 1, to this process.
   std::function<std::string(std::size_t i, const std::function<void(double)>& advance)> work;
-  // The following functions run in this process, one call at a time.
+  // These functions are called in this process, one call at a time.
   std::function<void(std::size_t i, double share)> advanced = [](std::size_t, double) {};
   std::function<void(std::size_t i, std::string result)> finished;
   // Is called when the process of the job was ended and has left unfinished files.

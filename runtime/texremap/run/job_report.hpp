@@ -39,7 +39,7 @@ struct JobReport {
   // These include planned results, in a dry run and after a failure. For an asset they are the asset, unless
   // nothing is written, and its new images.
   std::vector<Result> results;
-  std::vector<std::filesystem::path> copies;  // unconverted files; also planned ones
+  std::vector<std::filesystem::path> copies;  // copied files, also those that are only planned
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
   int failure_code = 0;           // errno of the call that failed, or 0
@@ -51,11 +51,11 @@ struct JobReport {
   // The following members are only for texture sets.
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   Transfer specular_transfer = Transfer::kLinear;
-  ColorNotes colors;                         // for integers, and if a file or the user states it
-  std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
-  std::optional<TranslationEffect> effect;   // only of a translation of surfaces
-  std::vector<PlannedRole> plan;             // plan of a dry run; for tiles, the first tile's
-  bool has_8_bits = false, has_compression_level = false;  // a result does
+  ColorNotes colors;  // for maps of integers, or if a file or the user states the color space
+  std::optional<DielectricF0> estimated_f0;                // only from a specular to a metallic workflow
+  std::optional<TranslationEffect> effect;                 // only for a translation between surfaces
+  std::vector<PlannedRole> plan;                           // plan of a dry run; for tiles, the first tile's
+  bool has_8_bits = false, has_compression_level = false;  // true if any result has it
   MapStatistics statistics;
 
   std::vector<AssetMaterial> materials;  // materials of assets
@@ -66,14 +66,14 @@ struct JobReport {
   JobReport& operator+=(const JobReport& other);
 
   std::size_t count(MaterialState state) const { return count_of(materials, state); }
-  // Returns why it has failed: the whole job, or `1 of 3 materials failed`. Returns nothing after success.
+  // Returns why the job has failed, for example `1 of 3 materials failed`. Returns nothing after success.
   std::optional<std::string> failure_text() const;
 };
 
-// Returns an estimated F0 as it is used and printed, with four decimals.
+// Returns an estimated F0 as texremap uses and prints it, with four decimals.
 double used_f0(const DielectricF0& estimated);
 
-// Lists all members for another process (packed_values.hpp).
+// Lists all members, so that another process can send them (packed_values.hpp).
 template <typename Archive>
 void fields(Archive& archive, JobReport::Result& result) {
   archive(result.path, result.parameters, result.mask);

@@ -39,10 +39,10 @@ std::string journal_name(const fs::path& path, const fs::path& folder) {
   return escaped;
 }
 
-// A Content is the content of journals. Each read continues at the end of the last one.
+// A Content is the content of journals. Each read continues where the last read ended.
 struct Content {
   std::optional<ConversionNote> owner;
-  std::map<std::string, Entry> files;  // keyed by name; the last line counts
+  std::map<std::string, Entry> files;  // keyed by name; the last line about a file is valid
   std::map<std::string, std::vector<const std::string*>>
       sets;  // names of their files, which are keys of `files`
   std::map<fs::path, std::uintmax_t> read_bytes;
@@ -116,7 +116,8 @@ void Content::add(std::string_view line) {
       field["files"].list(0, read);
     }
   } catch (const Error&) {
-    // Skip the line, because its meaning is unknown. A killed run left it, or the journal is damaged.
+    // Skip the line, because its meaning is unknown. A killed run may have left it, or the journal is
+    // damaged.
   }
 }
 
@@ -152,8 +153,8 @@ std::vector<fs::path> journals_of(const fs::path& folder) {
   return journals;
 }
 
-// Returns one journal of another part, or nothing if there is none. A part reads from it which conversion
-// owns the folder.
+// Returns the journal of one other part, or nothing if there is none. A new part finds in it which
+// conversion owns the folder.
 std::vector<fs::path> other_part(const fs::path& folder, const fs::path& own) {
   std::vector<fs::path> names = journals_of(folder);
   std::erase_if(names, [&](const fs::path& name) { return name == kJournalName || name == own; });
@@ -179,10 +180,10 @@ std::string shown_note(const std::string& text) {
   return text.empty() ? "none" : plain(text, kShown);
 }
 
-// Returns the first difference: `target mitsuba/ggx before, mitsuba/as now`.
+// Returns the first difference: `target before: mitsuba/ggx, now: mitsuba/as`.
 std::string difference(const ConversionNote& owner, const ConversionNote& own) {
   const auto differ = [](const std::string& what, const std::string& before, const std::string& now) {
-    return what + " " + shown_note(before) + " before, " + shown_note(now) + " now";
+    return what + " before: " + shown_note(before) + ", now: " + shown_note(now);
   };
   if (owner.source != own.source) return differ("source", owner.source, own.source);
   if (owner.target != own.target) return differ("target", owner.target, own.target);
@@ -203,7 +204,7 @@ struct Journal::State {
   ConversionNote conversion;
   mutable std::mutex mutex;  // guards `content` and appending
   Content content;
-  bool has_all = false;  // all journals are in `content`
+  bool has_all = false;  // `content` has all journals
   bool is_claimed = false;
 
   std::string name_of(const fs::path& path) const { return journal_name(path, folder); }
@@ -235,8 +236,8 @@ struct Journal::State {
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
     throw Error(ErrorKind::kOutput,
-                folder.string() + ": belongs to another conversion, " + shown_note(content.owner->source) +
-                    " to " + shown_note(content.owner->target) + " (" +
+                folder.string() + ": holds results of another conversion, from " +
+                    shown_note(content.owner->source) + " to " + shown_note(content.owner->target) + " (" +
                     difference(*content.owner, conversion) + "; choose another folder, or use --force)");
   }
   void append(const Json& json);
@@ -311,7 +312,7 @@ std::vector<fs::path> Journal::files_of(const std::string& set) const {
   const auto found = state_->content.sets.find(set);
   if (found == state_->content.sets.end()) return files;
   for (const std::string* name : found->second) {
-    if (!fault_of_relative(*name).empty()) return {};  // this program has not written it
+    if (!fault_of_relative(*name).empty()) return {};  // this program did not write the name
     files.push_back(state_->folder / *name);
   }
   return files;
@@ -353,7 +354,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
 
 struct JournalLookup::State {
   std::mutex mutex;
-  std::map<fs::path, std::shared_ptr<const Content>> journals;  // keyed by folder; null for none
+  std::map<fs::path, std::shared_ptr<const Content>> journals;  // keyed by folder; null: no journal there
 
   std::shared_ptr<const Content> of(const fs::path& folder) {
     const auto [found, is_new] = journals.try_emplace(folder);

@@ -72,8 +72,8 @@ class Journal {
   // Records that the files of a set are about to appear.
   void begin(const std::vector<std::filesystem::path>& files);
   // Calls `rename` and records the set, both under the lock of the folder. If another run wrote one of the
-  // files meanwhile, it throws kOutput without calling `rename`, unless `force`. If that run made them from
-  // the same inputs, they are complete and equal, and are written again.
+  // files meanwhile, throws kOutput without calling `rename`, unless `force` is set. If the other run made
+  // these files from the same inputs, they are equal, and this call replaces them.
   void commit(const std::string& set, const std::string& inputs, const std::vector<FinishedFile>& files,
               bool force, const std::function<void()>& rename);
 

@@ -24,7 +24,8 @@ void OutputFolder::require_free(const fs::path& file) const {
     throw output_error(file.string() + ": is a folder (choose another name)");
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
-  // If the user names the maps, they may be other maps with the same name.
+  // If the user gives the maps one by one, an earlier run may have made this file from other maps of the same
+  // names.
   if (is_own && plan_.list.is_of_folder) return;
   throw output_error(file.string() + ": already exists" +
                      (is_own     ? " and was made from other maps"

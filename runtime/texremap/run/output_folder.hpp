@@ -21,7 +21,7 @@ class OutputFolder {
   // Throws kOutput, with what to do, unless a file may be written. It may be written if it does not exist, if
   // this conversion of a folder wrote it, or with --force.
   void require_free(const std::filesystem::path& file) const;
-  // Reserves the name of a result. Throws kOutput if another job has it.
+  // Reserves the name of a result. Throws kOutput if another job has reserved it.
   void take(const std::filesystem::path& file, const std::string& owner) const;
 
   // Returns true if hashing the inputs can help, because this conversion wrote the first of the files.
@@ -34,11 +34,11 @@ class OutputFolder {
 
   // Records that files are about to appear.
   void begin(const std::vector<std::filesystem::path>& files);
-  // Calls `rename`, which gives finished files their names, and records them. They must be on the disk
-  // before. The lock of the folder is held only for the renames.
+  // Calls `rename`, which gives finished files their final names, and records the files. They must be on the
+  // disk before this call. It holds the lock of the folder only for the renames.
   void commit(const std::string& entry, const std::string& inputs, const std::vector<FinishedFile>& files,
               const std::function<void()>& rename);
-  // Returns true if results are recorded. Then they must be on the disk before they get their names.
+  // Returns true if results are recorded. Results must then be on the disk before they get their final names.
   bool has_journal() const { return journal_.has_value(); }
 
  private:

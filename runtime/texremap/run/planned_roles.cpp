@@ -25,7 +25,7 @@ std::string input_of(const TextureSet& set, const SetParameter& parameter) {
   text = name_of_file(map.path());
   if (parameter.channels.size() == std::min<std::size_t>(3, all.size()) &&
       parameter.channels.front().channel == 0 && (parameter.channels.size() > 1 || all.size() == 1))
-    return text;  // the whole map, apart from alpha
+    return text;  // alpha is not part of the map's values
   for (std::size_t c = 0; c < parameter.channels.size(); ++c)
     text += (c == 0 ? ":" : ",") + all[parameter.channels[c].channel].name;
   return text;
@@ -104,7 +104,7 @@ std::string plan_table(const std::vector<PlannedRole>& roles) {
   std::vector<std::array<std::string, 5>> rows = {{"role", "file", "holds", "what happens", "output"}};
   for (const PlannedRole& role : roles)
     rows.push_back({role.role, role.input, role.encoding, role.happens, role.output});
-  // Names of channels and roles come from files, so they are made safe to print, too.
+  // Names of channels and roles come from files, so they must be made safe to print, too.
   for (auto& row : rows)
     for (std::string& cell : row) cell = plain(cell);
   std::array<std::size_t, 5> widths{};

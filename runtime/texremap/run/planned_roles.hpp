@@ -16,11 +16,12 @@ struct PlannedRole {
   std::string input;     // `rock_arm.png:G`, `0.04`
   std::string encoding;  // encoding of the input: `srgb`, `linear`, `glossiness`
   std::string happens;   // `converted`, `kept`, `read`, `made`, `carried`, `copied`, `left behind`
-  std::string output;    // names of the files that hold it
+  std::string output;    // names of the results that hold the role
   bool operator==(const PlannedRole&) const = default;
 };
 
-// `own_width` is the source's encoding if the set does not state one, `width` the encoding of the results.
+// `own_width` is the encoding of the source if the set does not state one. `width` is the encoding of the
+// results.
 std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
                                        const TargetChoice& choice, const SetWork& work,
                                        RoughnessEncoding own_width, RoughnessEncoding width);

@@ -1,4 +1,4 @@
-// This file repeats work after failures that pass soon, such as a file server that does not answer.
+// This file repeats work after failures that are soon over, for example if a file server does not answer.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace remap {
 
-// Does `work`. If it fails with a code that passes soon (core/errors.hpp), repeats it up to three times with
-// growing pauses. Returns the messages of the failures before the success, and throws the last one. An
-// interruption ends the pause.
+// Calls `work`. If it fails with a code of a short failure (core/errors.hpp), calls it up to three times
+// again, with growing pauses. Returns the messages of the failures before the success. If all calls fail,
+// throws the last failure. An interruption ends the pause.
 std::vector<std::string> with_retries(const std::function<void()>& work);
 
 }  // namespace remap

@@ -20,7 +20,7 @@
 namespace remap {
 namespace {
 
-// Each job has this share in the progress line, whatever its size.
+// Each job adds this much to the progress line, whatever its size.
 constexpr std::size_t kJobProgress = 1000;
 
 // A RunProgress is the progress line of the whole run.
@@ -52,7 +52,7 @@ class RunProgress {
   const ConvertPlan& plan_;
   std::size_t done_ = 0;
   std::size_t texels_ = 0;
-  Progress line_;                   // declared after the counts that its first text needs
+  Progress line_;                   // declared after the counts, because its first text uses them
   std::vector<std::size_t> shown_;  // progress of each job
 };
 
@@ -97,7 +97,7 @@ class MergedReports {
   std::vector<std::pair<std::size_t, std::size_t>> set_of_;  // index of the set, and of the job in it
 };
 
-// Returns the place for messages: the set or the asset, or the first map if the set has no name.
+// Returns the place for messages: the name of the set or asset, or the first map if the set has no name.
 std::string place_of(const Job& job) {
   if (!job.name.empty()) return display_path(job.name);
   for (const auto& [parameter, asked] : std::get<SetWork>(job.work).request.parameters)

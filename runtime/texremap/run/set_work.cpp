@@ -21,7 +21,7 @@ namespace {
 
 using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 
-// Returns each file once, although each part of a file is a map of its own.
+// Returns the files of the maps, each once. A file with several parts has several maps.
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
@@ -29,7 +29,7 @@ OpenFiles files_of(const TextureSet& set) {
   return files;
 }
 
-// Returns the open file of that name, and opens it if `files` lack it.
+// Returns the open file with the path. Opens the file if it is not in `files`.
 std::shared_ptr<const InputFile> file_among(const OpenFiles& files, const std::filesystem::path& path) {
   const auto found = std::ranges::find(files, path, [](const auto& file) { return file->path(); });
   return found != files.end() ? *found : std::make_shared<const InputFile>(path);
@@ -142,8 +142,8 @@ class SetWorker final : public JobWorker {
               std::vector<TargetMap>& finished);
   std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_issues(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
-  // Returns the usual encoding of the roughness results, without a name or an option. For a workflow it is
-  // the target model's. Otherwise it is the inputs' encoding if known, and then the target model's.
+  // Returns the encoding of roughness results if neither a name nor an option gives it. With a workflow, it
+  // is the target model's. Otherwise, it is the encoding of the inputs if known, or else the target model's.
   RoughnessEncoding usual_width(const TextureSet& set) const {
     if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
     return set.convention.value_or(chosen_.info().target.roughness);
@@ -157,7 +157,7 @@ class SetWorker final : public JobWorker {
   JournalLookup journals_;  // journals of the inputs
 };
 
-// Reports the colors that `check` would report.
+// Reports wrong colors in the same way as `texremap check`.
 void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport& report) {
   constexpr std::array kColors = {std::pair(Parameter::kSpecular, Role::kSpecular),
                                   std::pair(Parameter::kDiffuse, Role::kDiffuse),
@@ -240,7 +240,8 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// A FinishedCopies holds finished copies without a final name. It removes the ones that never get a name.
+// A FinishedCopies holds finished copies without a final name. Its destructor removes copies that never get
+// one.
 class FinishedCopies {
  public:
   FinishedCopies() = default;
@@ -261,7 +262,7 @@ class FinishedCopies {
   std::vector<std::unique_ptr<NewFile>> whole_;
 };
 
-// Gives the finished files of a set, and its copies, their names.
+// Gives the finished results and copies of a set their final names.
 void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFiles& files,
                        const std::string& inputs, std::vector<TargetMap>& finished) {
   folder_.begin(results_of(targets));
@@ -299,7 +300,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     apply(*work.effect, choice);
     if (work.effect->written.empty())
       throw usage_error(report.inputs.front().string() + ": no input of " + chosen_.info().target.model +
-                        " depends on the maps (nothing to write; numbers alone are printed)");
+                        " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
   const RoughnessEncoding width =

@@ -1,4 +1,4 @@
-// This file reads and writes images in memory, as assets embed them.
+// This file reads and writes images in memory, for images inside of assets.
 #include <webp/decode.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -11,7 +11,8 @@
 namespace remap {
 namespace {
 
-// A conversion keeps this many copies of an image's pixels: other maps of the material, and the results.
+// A conversion keeps this many copies of the pixels of an image, for other maps of the material and for
+// results.
 constexpr std::uint64_t kCopies = 4;
 
 constexpr int kNoPngFilter = 8;  // PNG_FILTER_NONE of libpng
@@ -65,7 +66,7 @@ class AssetCodec final : public ImageCodec {
     spec.attribute("png:compressionLevel", level);
     std::string bytes = encoded(pixels, spec, "png");
     if (level < kSmallestPngLevel) return bytes;
-    // Images of few values are smaller without filters.
+    // Images with few different values are smaller without filters.
     spec.attribute("png:filter", kNoPngFilter);
     std::string other = encoded(pixels, spec, "png");
     return other.size() < bytes.size() ? other : bytes;

@@ -13,9 +13,10 @@
 namespace remap {
 namespace {
 
-// No file of these formats has more texels for its size, except pictures of one color.
+// In a valid file of these formats, one byte never stands for more bytes of pixels, except in pictures of one
+// color.
 constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
-// The head of an image states its size before texels are read. A larger size is a mistake or an attack.
+// A header that claims more texels than this is damaged or an attack.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 32;
 
 std::atomic<std::uint64_t> most_memory = std::uint64_t{4} << 30;
@@ -61,7 +62,7 @@ std::string format_of(std::string_view head) {
   return is_targa(head) ? "targa" : "";
 }
 
-// Returns the name of a format that is known but not read, otherwise an empty text.
+// Returns the name of a format that texremap recognises but does not read, otherwise an empty text.
 std::string known_name(std::string_view head) {
   using Mark = std::pair<std::string_view, const char*>;
   constexpr std::array<Mark, 8> kMarks = {Mark{"\xabKTX", "KTX2"}, {"DDS ", "DDS"},   {"GIF8", "GIF"},
@@ -93,7 +94,7 @@ void look_at_png(const ImageBytes& image, const std::string& context, ImageHead&
   }
 }
 
-// Checks compression and bits, because OpenImageIO reads beyond its memory if they do not fit.
+// Checks compression and bits, because OpenImageIO reads beyond its memory if they contradict each other.
 void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::string& context) {
   constexpr std::uint32_t kOldHeader = 12;  // a header without compression
   const std::uint32_t header = number_at(begin, 14, 4, false);
@@ -117,7 +118,7 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
     return static_cast<std::uint64_t>(size == 4 && value > 0x7fffffffu ? 0u - value : value);
   };
   const std::uint64_t width = side(18, is_old ? 2 : 4), height = is_old ? side(20, 2) : side(22, 4);
-  if (compression == 1 || compression == 2) {  // run lengths, which are all read on opening
+  if (compression == 1 || compression == 2) {  // run lengths are all read when the file is opened
     constexpr std::uint64_t kLongest = std::numeric_limits<int>::max();
     const auto shorter = [&](std::uint64_t texels) { return static_cast<int>(std::min(texels, kLongest)); };
     ImageHead head;
@@ -130,7 +131,8 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
                                 std::to_string(height) + " needs (the file may be truncated)");
 }
 
-// Checks the ends of texts, because OpenImageIO reads texts of the extension area up to any zero.
+// Checks the ends of texts, because OpenImageIO reads a text of the extension area up to the next zero,
+// wherever that is.
 void look_at_targa(const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kFooter = 26, kArea = 495;
   std::string footer(kFooter, '\0'), area(kArea, '\0');
@@ -149,7 +151,7 @@ void look_at_targa(const ImageBytes& image, const std::string& context) {
       refuse_damaged(context, "a text of its extension area has no end");
 }
 
-// Checks indices, because OpenImageIO looks up colors behind the end of a palette.
+// Checks palette indices, because OpenImageIO reads colors beyond the end of the palette.
 void look_at_targa_palette(std::string_view begin, const ImageBytes& image, const std::string& context) {
   constexpr std::size_t kHeader = 18, kChunk = std::size_t{1} << 16;
   constexpr std::uint32_t kPlain = 1, kRunLengths = 9;
@@ -164,7 +166,8 @@ void look_at_targa_palette(std::string_view begin, const ImageBytes& image, cons
   std::string chunk;
   std::size_t next = 0;
   bool has_ended = false;
-  const auto number = [&](std::size_t count) {  // 0 behind the end, which the importer finds itself
+  // Returns 0 beyond the end of the file. OpenImageIO reports such files itself.
+  const auto number = [&](std::size_t count) {
     if (chunk.size() - next < count) {
       at += next;
       chunk.resize(kChunk);
@@ -223,7 +226,7 @@ void look_at_exr(const ImageBytes& image, const std::string& context) {
   refuse_damaged(context, "it has too many attributes");
 }
 
-// Detects progressive JPEG files, which stay in memory as a whole until their last scan.
+// Detects progressive JPEG files. They are in memory as a whole until their last scan is read.
 bool is_progressive(const ImageBytes& image) {
   constexpr std::size_t kMostSegments = 10'000;
   std::array<char, 4> segment{};
@@ -253,7 +256,7 @@ ImageBytes bytes_of(std::string_view memory) {
 ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use) {
   const std::string begin = begin_of(image);
   ImageHead head{format_of(begin), {}, false};
-  const bool is_picture = head.format == "openexr" || head.format == "hdr";  // assets do not hold these
+  const bool is_picture = head.format == "openexr" || head.format == "hdr";  // not in assets
   if (head.format.empty() || (is_picture && use == ImageUse::kAsset)) {
     const std::string name = is_picture ? head.format : known_name(begin);
     throw input_error(context + ": " +
@@ -291,7 +294,7 @@ void require_plausible(const OIIO::ImageSpec& spec, const ImageHead& head, const
   if (bytes / kMostBytesOfAByte > image.size)
     refuse_damaged(context, "its size of " + size + " is too large for a file of " +
                                 std::to_string(image.size) + " bytes");
-  // Importers of strips, tiles and blocks keep this many rows.
+  // OpenImageIO keeps this many rows while it reads strips, tiles and blocks.
   const int strip = std::max({spec.tile_height, spec.get_int_attribute("tiff:RowsPerStrip"), 256});
   require_image_memory(
       head.is_read_whole ? bytes : row * static_cast<std::uint64_t>(std::min(strip, spec.height)), context);

@@ -1,5 +1,6 @@
-// This file checks the head of an image before OpenImageIO reads it. Every image passes here: from files,
-// assets, strokes and workers. OpenImageIO's importers trust headers, and some then read beyond their memory.
+// This file checks the head of an image before OpenImageIO reads it. OpenImageIO trusts headers, and with
+// some formats reads beyond its memory. So every image passes through here, from files, assets, strokes and
+// workers.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +17,13 @@ namespace remap {
 // An ImageBytes gives the bytes of an image from a file or from memory.
 struct ImageBytes {
   std::uint64_t size = 0;
-  // Reads up to `count` bytes from `place` on, and returns how many there were.
+  // Reads up to `count` bytes that begin at `place`. Returns how many bytes the file had there.
   std::function<std::size_t(std::uint64_t place, char* bytes, std::size_t count)> read;
 };
 ImageBytes bytes_of(std::string_view memory);
 
 struct ImageHead {
-  std::string format;                   // name of its reader in OpenImageIO
+  std::string format;                   // name of the format in OpenImageIO
   std::vector<std::string> png_chunks;  // names of the chunks before the pixels
   bool is_read_whole = false;           // reading one row needs the memory of all rows
 };
@@ -30,9 +31,9 @@ struct ImageHead {
 // An image in memory belongs to an asset, which allows fewer formats.
 enum class ImageUse { kMap, kAsset };
 
-// Detects the format by the content, not by the name: PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR and Radiance
-// HDR. Throws kInput, beginning with `context`, for other content, and for a header that would harm an
-// importer.
+// Detects the format by the content, not by the name. Formats are PNG, JPEG, WebP, BMP, TIFF, Targa, OpenEXR
+// and Radiance HDR. Throws kInput, beginning with `context`, for other content, and for a header that would
+// harm OpenImageIO.
 ImageHead checked_head(const ImageBytes& image, const std::string& context, ImageUse use = ImageUse::kMap);
 
 // Throws kInput, beginning with `context`, if the file is too small for its picture, or if the picture needs

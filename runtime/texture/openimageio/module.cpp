@@ -1,4 +1,4 @@
-// This file holds the function that a program calls in the module.
+// This file holds the function of the module that a program calls.
 #include "remap/version.hpp"
 #include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
@@ -12,7 +12,8 @@ class OpenImageIo : public ImageLibrary {
     if (limits.memory_bytes > 0) set_image_memory(limits.memory_bytes);
     if (limits.threads == 0) return;
     OIIO::attribute("threads", limits.threads);
-    // With -1 OpenEXR works in the calling thread; with 1 it would start a thread while the caller waits.
+    // With -1, OpenEXR works in the calling thread. With 1, it would start a thread, and the caller would
+    // wait.
     OIIO::attribute("exr_threads", limits.threads == 1 ? -1 : limits.threads);
   }
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {

@@ -1,4 +1,4 @@
-// This file writes images.
+// This file writes images, and checks that they are complete.
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -14,8 +14,9 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A CheckedFile remembers its first write failure, because some encoders ignore failures (libpng) or end the
-// process (libjpeg). It reports success to the encoder; the writer checks for a failure after every band.
+// A CheckedFile remembers the first write that fails, because some encoders ignore failures (libpng) or end
+// the process (libjpeg). It reports success to the encoder. Then the code that writes bands checks for a
+// failure after each band.
 class CheckedFile : public OIIO::Filesystem::IOProxy {
  public:
   explicit CheckedFile(const NewFile& file)
@@ -32,7 +33,7 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
     end_ = std::max(end_, tell());
     return size;
   }
-  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // footers are written here
+  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // encoders write footers here
   void flush() const override { std::fflush(file_); }
 
   // Returns the errno of the first failure, or 0.
@@ -78,14 +79,14 @@ class OpenedNewImage : public NewImage {
   const OIIO::ImageSpec& spec() const {
     return specs_[static_cast<std::size_t>(part_)][static_cast<std::size_t>(level_)];
   }
-  // Returns the name by which encoders without streams open the file. If possible it refers to the open
-  // descriptor, because another user of the folder may meanwhile redirect the plain name.
+  // Returns the name by which an encoder without streams opens the file. If possible, the name means the open
+  // descriptor, because another user of the folder could replace the file.
   std::string open_name() const {
     std::string name = "/proc/self/fd/" + std::to_string(descriptor_of(file_->stream()));
     std::error_code ignored;
     return fs::exists(name, ignored) ? name : finished_file().string();
   }
-  // Replaces temporary names in an encoder's message about the file.
+  // Replaces the temporary name in an encoder's message by the name of the file.
   std::string in_words(std::string message) const {
     const std::string name = open_name();
     for (std::size_t at = message.find(name); at != std::string::npos; at = message.find(name, at))
@@ -112,7 +113,8 @@ class OpenedNewImage : public NewImage {
   bool plane_is_open_ = false;
 };
 
-// Prepares everything without opening the encoder, because libpng prints errors if it gets no texels.
+// Prepares everything except the encoder. It is opened later, because libpng prints errors if it gets no
+// texels.
 void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   output_ = OIIO::ImageOutput::create(path_.string());
   if (!output_) {
@@ -127,7 +129,8 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
     std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
     for (const OIIO::ImageSpec& model : followed_levels(*part.model)) {
       levels.push_back(output_spec(model, model_format, *output_, part.changes, path_));
-      // TIFF has no mip levels. Textures store them as parts, which programs treat as levels.
+      // TIFF has no mip levels. Textures in TIFF store levels as parts, and programs treat these parts as
+      // levels.
       const bool has_levels =
           output_->supports("mipmap") ||
           (model_format == output_->format_name() && output_->supports("multiimage") && parts.size() == 1);
@@ -141,11 +144,11 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
 }
 
 void OpenedNewImage::open() {
-  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without a
-  // proxy it opens the file by its name. It then reports write failures itself, except for the last bytes,
-  // which `check_finished` checks.
+  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. So it
+  // opens TIFF files by name. It then reports write failures itself, except for the last bytes, which
+  // check_finished() checks.
   if (layout_.format != "tiff") output_->set_ioproxy(proxy_.get());
-  if (specs_.size() > 1 && layout_.format == "openexr") {  // needs all parts at once
+  if (specs_.size() > 1 && layout_.format == "openexr") {  // OpenEXR needs the specs of all parts at once
     std::vector<OIIO::ImageSpec> firsts;
     for (const auto& levels : specs_) firsts.push_back(levels.front());
     check(output_->open(open_name(), static_cast<int>(firsts.size()), firsts.data()));
@@ -167,20 +170,20 @@ void OpenedNewImage::open_plane() {
   plane_is_open_ = true;
 }
 
-// Throws if the system refused bytes.
+// Throws if the system refused a write.
 void OpenedNewImage::check_file() const {
   if (proxy_->failure() != 0)
     throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be written", proxy_->failure());
 }
 
-// Throws if the system refused bytes or OpenImageIO failed.
+// Throws if the system refused a write, or if OpenImageIO failed.
 void OpenedNewImage::check(bool done) const {
   const std::string message = output_ ? output_->geterror() : "";
   check_file();
   if (!done) fail("cannot be written: " + in_words(first_line(message, "unknown reason")));
 }
 
-// Reads the header of the finished file and, for TIFF, its last rows.
+// Reads the header of the finished file. In TIFF, also reads its last rows.
 void OpenedNewImage::check_finished() const {
   try {
     const auto image = open_image(content(), part_);
@@ -216,7 +219,7 @@ void OpenedNewImage::write_rows(int first_row, int row_count, const std::byte* t
 void OpenedNewImage::finish() {
   const bool closed = output_->close();
   check(closed);
-  output_.reset();  // the EXR writer keeps files with mip levels open until it is destroyed
+  output_.reset();  // the EXR writer closes files with mip levels only when it is destroyed
   check(true);
   file_->finish();
   check_finished();

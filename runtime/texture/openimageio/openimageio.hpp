@@ -1,4 +1,4 @@
-// The files of the module of images share this header. Only they include OpenImageIO.
+// This header belongs to the files of the image module. Only these files include OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,19 @@ inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
 // Returns the first line of a message of OpenImageIO, or `otherwise` if the message is empty.
 std::string first_line(const std::string& text, const std::string& otherwise);
 
-// This note marks results whose format has no tag for linear colors in integers.
+// This tag marks results with linear colors in integers, if their format has no tag for that.
 inline constexpr const char* kNotedColorSpace = "remap:color_space";
 
 // Returns the metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
 std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name);
 
-// Returns the type for passing rows without conversion. Channels of several types need TypeUnknown, which the
-// TIFF writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
+// Returns the type for reading and writing rows without a conversion. If channels have several types, this
+// must be TypeUnknown. With TypeUnknown, the TIFF writer of OpenImageIO 2.4 makes errors at the right and
+// lower edge of tiled images.
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
-// layout_of() throws kInput if a channel has an unsupported type. has_compression_level() returns true if the
-// compression has a level: in PNG, and for zip in EXR and TIFF.
+// layout_of() throws kInput if the type of a channel is not supported. has_compression_level() returns true
+// for PNG, and for zip in EXR and TIFF.
 bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format);
 
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
@@ -41,7 +42,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
 std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& file, int part);
 std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
 
-// Returns the levels of a stored image, as new images follow them.
+// Returns the levels of a stored image, at the size for new images that are made from it.
 const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image);
 
 Picture read_picture(const std::filesystem::path& path);
@@ -52,8 +53,9 @@ std::string png_picture_bytes(const Picture& picture);
 
 const ImageCodec& asset_codec();
 
-// Returns the description of a new file that follows `model` in everything except `changes`, if the format of
-// `output` can hold it. Throws kOutput, with `path`, if the format cannot hold channels or type.
+// Returns the description of a new file that equals `model` in everything except `changes`, as far as the
+// format of `output` allows. Throws kOutput, with `path`, if the format cannot hold the channels or their
+// type.
 OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
                             const OIIO::ImageOutput& output, const ImageChanges& changes,
                             const std::filesystem::path& path);

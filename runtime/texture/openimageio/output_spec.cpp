@@ -1,5 +1,5 @@
-// This file describes a new file that follows another. It knows what the new file keeps, what becomes invalid
-// with new pixels or a new format, and what each format can hold.
+// This file describes a new file that is made from another file. It decides what the new file keeps, what
+// becomes invalid with new pixels or in a new format, and what each format can hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,29 +23,29 @@ std::string name_of(PixelType type) { return std::string(name_of(kPixelTypes, ty
 OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(name_of(type)); }
 PixelType pixel_type(OIIO::TypeDesc type) { return value_named(kPixelTypes, type.c_str()).value(); }
 
-// Returns the type in which `format` holds values of `type` with the least loss, or nothing for unsupported
-// formats. OpenImageIO's own choice takes 8 bits even if the format has 16.
+// Returns the type in which `format` holds values of `type` with the smallest loss. Returns nothing for
+// unsupported types. OpenImageIO would choose 8 bits even if the format has 16.
 std::optional<PixelType> stored_type(std::string_view format, PixelType type) {
   if (format == "openexr") {
     if (type == PixelType::kHalf || type == PixelType::kFloat || type == PixelType::kUint32) return type;
     return byte_count(type) == 1 ? PixelType::kHalf : PixelType::kFloat;
   }
   if (format == "tiff") return type == PixelType::kHalf ? PixelType::kFloat : type;
-  if (format == "hdr") return PixelType::kFloat;  // three values with a common exponent
+  if (format == "hdr") return PixelType::kFloat;  // three values with one exponent
   if (format == "png") return type == PixelType::kUint8 ? type : PixelType::kUint16;
   if (format == "jpeg" || format == "targa" || format == "bmp") return PixelType::kUint8;
   return std::nullopt;
 }
 
 void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
-  spec.set_format(spec.channelformat(0));  // also drops the types of single channels
+  spec.set_format(spec.channelformat(0));  // also removes the types of single channels
   spec.nchannels = static_cast<int>(names.size());
   spec.channelnames = names;
   const auto alpha = std::find(names.begin(), names.end(), "A");
   spec.alpha_channel = alpha == names.end() ? -1 : static_cast<int>(alpha - names.begin());
-  if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // data, not opacity
+  if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // alpha is data here, not opacity
   spec.z_channel = -1;
-  // A color profile is valid for one number of channels only.
+  // A color profile is valid only for one number of channels.
   spec.erase_attribute("ICCProfile.*");
   spec.erase_attribute("tiff:PhotometricInterpretation");
 }
@@ -66,7 +66,7 @@ void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output)
   if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
 }
 
-// Removes the creator, because IPTC writers add the artist again; there would be two creators.
+// Removes the creator, because writers of IPTC data add the artist as creator, and the file would have two.
 void leave_creator_to_writer(OIIO::ImageSpec& spec) {
   if (spec.get_string_attribute("IPTC:Creator") == spec.get_string_attribute("Artist"))
     spec.erase_attribute("IPTC:Creator");
@@ -109,12 +109,13 @@ void suit_targa(OIIO::ImageSpec& spec) {
   if (software.ends_with(own)) spec.attribute("Software", software.substr(0, software.size() - own.size()));
 }
 
-// Sets what single formats need.
+// Sets the attributes that some formats need.
 void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
-  // TIFF tags associated alpha and stores it unchanged; the other formats would divide by it.
+  // In TIFF, mark alpha as associated, which keeps values unchanged. Other formats would divide colors by
+  // such an alpha.
   if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
-  // EXR and TIFF writers add the time of the run, so equal inputs would not give equal files. An empty time
-  // reads as none.
+  // EXR and TIFF writers add the time of the run. Equal inputs would then not give equal files. Readers
+  // ignore an empty time.
   if (spec.find_attribute("DateTime") == nullptr && (format == "openexr" || format == "tiff"))
     spec.attribute("DateTime", "");
   if (format == "openexr") suit_openexr(spec);
@@ -131,9 +132,9 @@ void choose_compression_level(OIIO::ImageSpec& spec, const std::string& format, 
     spec.attribute("Compression", "zip:" + std::to_string(level));
 }
 
-// Tags the colors of a new file. If it stores them like the file that it follows, it keeps that file's tag.
-// Data never has a tag, because programs that follow the tag would decode the data. glTF and most programs
-// read the colors of PNG as sRGB and ignore its gamma. So linear colors have a tag only on request.
+// Tags the colors of a new file. If colors are stored as in the model, the new file keeps the model's tag.
+// Data has no tag, because programs that obey the tag would decode the data. glTF and most programs read
+// colors in PNG as sRGB and ignore its gamma. So linear colors have a tag only if the user chooses them.
 void tag_colors(OIIO::ImageSpec& spec, std::string_view format, PixelType type, bool follows,
                 const ImageChanges& changes, Metadata& metadata) {
   const bool keeps_tag = follows && changes.colors &&
@@ -154,7 +155,7 @@ void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadat
     spec.attribute(name, value);
     all += (all.empty() ? "" : "; ") + name + "=" + value;
   }
-  // TIFF and JPEG have no custom attributes, so the tag for the writing program holds them.
+  // TIFF and JPEG have no custom attributes. The tag Software holds them instead.
   if (!all.empty() && (format == "tiff" || format == "jpeg")) spec.attribute("Software", all);
 }
 
@@ -175,7 +176,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
   const PixelType type = changes.type.value_or(pixel_type(spec.format));
-  // Few programs read half floats in TIFF, so the new file uses them only if the old file does.
+  // Few programs read half floats in TIFF, so the new file has them only if the model has.
   const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
   const std::optional<PixelType> stored =
       keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);

@@ -1,4 +1,4 @@
-// This file reads images.
+// This file reads images, band by band.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -32,19 +32,21 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
-// Returns false if OpenImageIO assumed sRGB, as it does for files of these formats without a color space.
+// Returns false if OpenImageIO only assumed sRGB, as it does in these formats if the file states no color
+// space.
 bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, const ImageHead& head) {
   if (format == "png")
     return std::ranges::any_of(head.png_chunks,
                                [](const std::string& name) { return name == "sRGB" || name == "gAMA"; });
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
-  return format != "webp";  // webp has no place for a color space
+  return format != "webp";  // WebP cannot state a color space
 }
 
-// No material has so many maps, and every part costs the memory and time of all headers.
+// No material has so many maps. For every part, the headers of all parts are read, which costs memory and
+// time.
 constexpr int kMostParts = 128;
 
-// Treats gamma curves as sRGB, because the usual 2.2 differs little from it.
+// Treats gamma curves as sRGB, because the usual gamma of 2.2 is close to it.
 std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
   if (const auto noted = noted_metadata(spec, kNotedColorSpace)) return value_named(kTransfers, *noted);
   const std::string color_space = spec.get_string_attribute("oiio:ColorSpace");
@@ -141,7 +143,7 @@ std::FILE* FileStream::opened(FileStream* cookie) {
   return stream;
 }
 
-// A StreamProxy exists because some readers of OpenImageIO accept only C streams.
+// A StreamProxy gives an open file to those parts of OpenImageIO that accept only C streams.
 class StreamProxy : public OIIO::Filesystem::IOFile {
  public:
   explicit StreamProxy(const FileStream& source) : IOFile(source.stream.get(), Read), source_(source) {}
@@ -157,7 +159,7 @@ class StreamProxy : public OIIO::Filesystem::IOFile {
   const FileStream& source_;
 };
 
-// Returns true if the format's importer opens the file again, by its name, to go back to an earlier row.
+// Returns true if OpenImageIO opens a file of this format again, by its name, to go back to an earlier row.
 bool starts_again(const ImageLayout& layout) {
   constexpr std::array<std::string_view, 4> kFormats = {"hdr", "jpeg", "png", "tiff"};
   return layout.tile_height == 0 && std::ranges::find(kFormats, layout.format) != kFormats.end();
@@ -210,7 +212,7 @@ class OpenedImage : public StoredImage {
   int part_count_ = 0;
   int level_ = 0;
   int next_row_ = 0;                     // the row after the last one that was read
-  std::vector<OIIO::ImageSpec> levels_;  // levels of the part, at the size that new images follow
+  std::vector<OIIO::ImageSpec> levels_;  // levels of the part, at the size for new images made from it
   ImageLayout layout_;                   // layout of `level_`, as stored
 };
 
@@ -221,17 +223,17 @@ void OpenedImage::fail(const std::string& what, int system_code) const {
 void OpenedImage::open() {
   head_ = checked_head(bytes_, path().string());
   open_input();
-  (void)input_->geterror();  // discards remarks on unusual headers
+  (void)input_->geterror();  // drops messages about unusual headers
   find_planes();
   for (const OIIO::ImageSpec& level : levels_) require_plausible(level, head_, bytes_, path().string());
-  // A color space that OpenImageIO only assumed is neither read nor written.
+  // Ignore a color space that OpenImageIO only assumed, and do not write it.
   if (!tells_color_space(spec(), input_->format_name(), head_))
     for (OIIO::ImageSpec& level_spec : levels_) level_spec.erase_attribute("oiio:ColorSpace");
   layout_ = layout_of(spec(), input_->format_name(), path());
   refuse_spoiled_webp();
 }
 
-// Opens the input from the start of the file, and only with the importer of its format.
+// Opens the input from the start of the file, and tries only the format that the head shows.
 void OpenedImage::open_input() {
   input_.reset();
   OIIO::ImageSpec hints, ignored;
@@ -265,8 +267,8 @@ void OpenedImage::refuse_spoiled_webp() {
 }
 
 void OpenedImage::count_parts() {
-  // The WebP importer reads nothing after a request for a missing frame. Only an animation's first frame
-  // counts.
+  // OpenImageIO reads nothing from a WebP file after a request for a missing frame. Only the first frame of
+  // an animation is used.
   const int most_parts = std::string_view(input_->format_name()) == "webp" ? 1 : kMostParts;
   while (part_count_ < most_parts && input_->seek_subimage(part_count_, 0)) ++part_count_;
   if (part_count_ == kMostParts && input_->seek_subimage(part_count_, 0))
@@ -274,8 +276,8 @@ void OpenedImage::count_parts() {
 }
 
 void OpenedImage::find_planes() {
-  // The TIFF importer goes through all parts before the requested part. If every part counted the parts, the
-  // time would grow with the cube of their number.
+  // For each part, OpenImageIO goes through all earlier parts of a TIFF file. If every part also counted all
+  // parts, the time would grow with the cube of their number.
   if (part_ == 0 || part_ >= kMostParts || !input_->seek_subimage(part_, 0)) {
     count_parts();
     if (part_ >= part_count_)
@@ -311,7 +313,7 @@ void OpenedImage::set_followed_size(int width, int height) {
 
 void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
   const OIIO::ImageSpec& plane = spec();
-  const int width = layout_.width;  // as stored
+  const int width = layout_.width;  // as stored in the file
   if (first_row < next_row_ && starts_again(layout_)) open_input();
   next_row_ = first_row + row_count;
   const int begin = plane.y + first_row, end = begin + row_count;
@@ -321,7 +323,7 @@ void OpenedImage::read_rows(int first_row, int row_count, std::byte* texels) {
                                              plane.z + 1, 0, plane.nchannels, native_type(plane), texels)
                         : input_->read_scanlines(part_, level_, begin, end, plane.z, 0, plane.nchannels,
                                                  native_type(plane), texels);
-  // OpenImageIO reads truncated TIFF and JPEG files "successfully"; only the message reveals the error.
+  // OpenImageIO reads truncated TIFF and JPEG files without failing. Only its message shows the error.
   const std::string message = input_->geterror();
   if (read && message.empty()) return;
   const std::string rows = "rows " + std::to_string(first_row) + " to " +
@@ -337,7 +339,7 @@ std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& 
 }
 
 const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image) {
-  return static_cast<const OpenedImage&>(image).levels();  // the only class of stored images
+  return static_cast<const OpenedImage&>(image).levels();  // no other class implements StoredImage here
 }
 
 std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name) {
