@@ -1,6 +1,5 @@
 // Previews of texture sets: balls of uniform maps equal the spheres of numbers, maps lie on the ball as they
 // are written, and the figures follow from the conversion.
-#include "report/preview.hpp"
 #include "report/set_preview.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,6 +7,7 @@
 #include "look/brdf_models.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scene.hpp"
+#include "report/preview.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 
