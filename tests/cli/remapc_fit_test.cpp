@@ -61,7 +61,7 @@ TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and 
   CHECK(fit("1e-12").errors.find("warning: made_ward_to_made_as: neither texremap nor emit") !=
         std::string::npos);
   CHECK_FALSE(load_fit(path).converter.has_value());
-  CHECK(session.remapc("show " + path).output.find("No header: ") != std::string::npos);
+  CHECK(session.remapc("show " + path).output.find("No header, because") != std::string::npos);
   CHECK(session.remapc("emit " + path + " -o headers").exit_code == 1);
   CHECK_FALSE(fs::exists(session.path("headers")));
   CHECK(fit("1e-3").errors.find("warning") == std::string::npos);

@@ -13,7 +13,7 @@ import { loaded, native, repository, skipBrowser, startBrowser } from './browser
 const remapc = join(dirname(native), 'remapc');
 const skip = skipBrowser || ([native, remapc].every(existsSync) ? false : 'texremap and remapc are not built');
 const folder = mkdtempSync(join(tmpdir(), 'texremap-viewer-'));
-const SIDE = 256;
+const SIDE = 128;
 
 let browser, decode, encode, shading;
 
@@ -77,7 +77,8 @@ async function shaded(page, report, look) {
     const maps = {};
     for (const map of ['roughness', 'specular', 'diffuse']) maps[map] = await image(shown[map]);
     const shader = new globalThis.shading.Shading(canvas, light);
-    shader.show({ ...shown, ...maps }, { ...shown, ...maps });
+    const look = { ...shown, ...maps };
+    shader.show(look, look);
     shader.draw({ wipe: 1, light: 0, zoom: 1, center: [0, 0], exposure: 0, object: 'ball', isStill: true });
     while (!shader.isFinished) await new Promise(requestAnimationFrame);
     const url = canvas.toDataURL();
@@ -90,7 +91,7 @@ async function shaded(page, report, look) {
 
 describe('the viewer', { skip }, () => {
   for (const model of ['ggx', 'ward', 'ward-duer', 'ward-balanced', 'phong', 'beckmann', 'as'])
-    test(`${model} is shaded as remapc shades it`, async (run) => {
+    test(`${model} is shaded as remapc shades it`, { timeout: 600000 }, async (run) => {
       const page = await browser.newPage();
       await page.goto('about:blank');
       await page.addScriptTag({ content: `${shading}; globalThis.shading = shading;` });

@@ -140,15 +140,24 @@ export class Shading {
   show(left, right) {
     const gl = this.#gl;
     for (const { textures } of this.#sides) Object.values(textures).forEach((texture) => gl.deleteTexture(texture));
-    this.#sides = [left, right].map((look, i) => ({
+    const before = this.#sides;
+    this.#sides = (left === right ? [left] : [left, right]).map((look, i) => ({
       look,
       program: this.#programOf(look.brdf),
       textures: Object.fromEntries(MAPS.filter((map) => look[map]).map((map) => [
         map, this.#mapTexture(look[map], map === 'specular' || map === 'diffuse')])),
-      frames: this.#sides[i]?.frames ?? [],
+      frames: before[i]?.frames ?? [],
       count: 0,
     }));
+    before.slice(this.#sides.length).forEach(({ frames }) => this.#drop(frames));
     this.#key = '';
+  }
+
+  #drop(frames) {
+    for (const { texture, buffer } of frames) {
+      this.#gl.deleteTexture(texture);
+      this.#gl.deleteFramebuffer(buffer);
+    }
   }
 
   // Makes the textures that hold the means of frames, two for each side.
@@ -156,10 +165,7 @@ export class Shading {
     const gl = this.#gl;
     const { width, height } = gl.canvas;
     for (const side of this.#sides) {
-      side.frames.forEach(({ texture, buffer }) => {
-        gl.deleteTexture(texture);
-        gl.deleteFramebuffer(buffer);
-      });
+      this.#drop(side.frames);
       side.frames = [0, 1].map(() => {
         const texture = this.#texture(gl.CLAMP_TO_EDGE, gl.NEAREST);
         gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, width, height);
@@ -213,7 +219,7 @@ export class Shading {
     const gl = this.#gl;
     gl.useProgram(this.display.program);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    this.#sides.forEach(({ frames, count }, i) =>
+    [this.#sides[0], this.#sides.at(-1)].forEach(({ frames, count }, i) =>
       this.#bind(this.display, i === 0 ? 'left' : 'right', i, frames[(count + 1) % 2].texture));
     gl.uniform1f(this.display.place('exposure'), 2 ** exposure);
     gl.uniform1f(this.display.place('border'), Math.round(gl.canvas.width * wipe));
