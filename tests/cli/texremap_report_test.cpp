@@ -24,7 +24,7 @@ nlohmann::json data_of(const std::string& html) {
 }
 
 ImagePixels image_of(const nlohmann::json& data, const nlohmann::json& index) {
-  const auto url = data["images"][index.get<std::size_t>()].get<std::string>();
+  const auto url = data["images"][index.get<std::string>()].get<std::string>();
   const auto bytes = from_base64<std::string>(url.substr(url.find(',') + 1));
   REQUIRE(bytes.has_value());
   return image_library().codec().decode(*bytes, "image of the report");

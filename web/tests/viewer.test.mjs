@@ -100,7 +100,7 @@ describe('the viewer', { skip }, () => {
         const [sheet, html] = [join(set, '../sheet.png'), join(set, '../report.html')];
         const ends = ['--from', 'mitsuba/ggx', '--to', `mitsuba/${model}`];
         const target = model === 'ggx' ? ['--from', 'mitsuba/ward', '--to', 'mitsuba/ggx'] : ends;
-        execFileSync(remapc, ['preview', set, ...target, '--no-labels', '--resolution', String(SIDE), '--directions', '1500', '--force', '-o', sheet], { stdio: 'ignore' });
+        execFileSync(remapc, ['preview', set, ...target, '--no-labels', '--resolution', String(SIDE), '--directions', '6000', '--force', '-o', sheet], { stdio: 'ignore' });
         texremap(set, ...target, '-o', join(folder, 'out'), '--dry-run', '--force', '--format', 'exr', '--report', html);
         const report = dataOf(html);
         const look = report.materials[0].looks.at(-1);

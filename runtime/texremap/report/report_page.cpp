@@ -1,19 +1,18 @@
 #include "texremap/report/report_page.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <string_view>
 
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/linear_values.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/json_field.hpp"
+#include "core/packed_values.hpp"
 #include "core/report_text.hpp"
 #include "look/brdf_models.hpp"
 #include "look/environment.hpp"
@@ -22,6 +21,8 @@
 #include "sets/folder_walk.hpp"
 #include "texremap/options/program.hpp"
 #include "texremap/report/job_looks.hpp"
+#include "texremap/run/job_processes.hpp"
+#include "texture/content_hash.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -38,27 +39,34 @@ constexpr std::size_t kLargestPng = 256 * 1024;                       // a large
 constexpr int kLightRows = 128;                                       // of the light that the viewer reads
 constexpr int kJpegQuality = 92;
 
-// A PageImages holds the images of a page as data URIs, equal ones once.
-class PageImages {
- public:
-  std::size_t add(const ImagePixels& pixels) {
-    const ImageCodec& codec = image_library().codec();
-    std::string bytes = codec.encode_png(pixels, kUsualPngLevel), type = "png";
-    if (bytes.size() > kLargestPng && !pixels.has_alpha()) try {
-        bytes = codec.encode_jpeg(pixels, kJpegQuality), type = "jpeg";
-      } catch (const Error&) {  // a host that only writes PNG
-      }
-    const std::string url = "data:image/" + type + ";base64," + base64(bytes);
-    const auto [place, is_new] = places_.emplace(url, urls_.size());
-    if (is_new) urls_.push_back(url);
-    return place->second;
-  }
-  const std::vector<std::string>& urls() const { return urls_; }
+// These are the images of a page: data URIs by a hash of their bytes, so that equal ones are there once.
+using PageImages = std::map<std::string, std::string>;
 
- private:
-  std::vector<std::string> urls_;
-  std::map<std::string, std::size_t> places_;
+// Returns the key of an image.
+std::string add_image(const ImagePixels& pixels, PageImages& images) {
+  const ImageCodec& codec = image_library().codec();
+  std::string bytes = codec.encode_png(pixels, kUsualPngLevel), type = "png";
+  if (bytes.size() > kLargestPng && !pixels.has_alpha()) try {
+      bytes = codec.encode_jpeg(pixels, kJpegQuality), type = "jpeg";
+    } catch (const Error&) {  // a host that only writes PNG
+    }
+  ContentHash hash;
+  hash.add(bytes);
+  const std::string key = hash.hex().substr(0, 16);
+  images.emplace(key, "data:image/" + type + ";base64," + base64(bytes));
+  return key;
+}
+
+// A ShownJob is what the page shows of a job. It comes from the process that has read the job's files.
+struct ShownJob {
+  std::vector<std::string> materials;  // JSON of each
+  PageImages images;
+  std::string trouble;  // why the job is not shown, or empty
 };
+template <typename Archive>
+void fields(Archive& archive, ShownJob& job) {
+  archive(job.materials, job.images, job.trouble);
+}
 
 // Returns an image of rows of linear values times `factor`: one row is grey, three are red, green, blue.
 ImagePixels pixels_of(const std::vector<std::vector<float>>& rows, int width, Transfer transfer,
@@ -96,13 +104,15 @@ Json maps_json(const ScaledMaps& maps, PageImages& images) {
     if (is_scaled) name += " (white is " + number_text(largest) + ")";
     const ImagePixels pixels = pixels_of(rows, maps.width, is_color_map ? Transfer::kSrgb : Transfer::kLinear,
                                          is_scaled ? 1.0f / largest : 1.0f);
-    list.push_back(
-        {{"name", name}, {"image", images.add(pixels)}, {"width", maps.width}, {"height", maps.height}});
+    list.push_back({{"name", name},
+                    {"image", add_image(pixels, images)},
+                    {"width", maps.width},
+                    {"height", maps.height}});
   }
   return list;
 }
 
-std::size_t add_still(const DisplayedSphere& picture, PageImages& images) {
+std::string add_still(const DisplayedSphere& picture, PageImages& images) {
   const auto side = static_cast<std::size_t>(kStillSide);
   ImagePixels pixels{side, side, 4, PixelType::kUint8, std::vector<std::byte>(4 * side * side)};
   const std::vector<std::uint32_t> places = shape_pixels(Shape::kSphere, kStillSide);
@@ -112,7 +122,7 @@ std::size_t add_still(const DisplayedSphere& picture, PageImages& images) {
       texel[c] = static_cast<std::byte>(std::lround(255.0f * picture.colors[3 * i + c]));
     texel[3] = std::byte{255};
   }
-  return images.add(pixels);
+  return add_image(pixels, images);
 }
 
 // Returns a look as the viewer shades it. The image of roughness holds the root of alpha.
@@ -132,10 +142,10 @@ Json look_json(const std::string& title, const std::string& model, const Texture
                {"brdf", glsl_name(ball.model.brdf)},
                {"schlick", ball.model.fresnel == Fresnel::kSchlick},
                {"range", range}};
-  json["roughness"] = images.add(pixels_of(roughness, ball.width, Transfer::kLinear));
-  json["specular"] = images.add(pixels_of(specular, ball.width, Transfer::kSrgb, 1.0f / range));
+  json["roughness"] = add_image(pixels_of(roughness, ball.width, Transfer::kLinear), images);
+  json["specular"] = add_image(pixels_of(specular, ball.width, Transfer::kSrgb, 1.0f / range), images);
   if (largest_of(diffuse) > 0.0f)
-    json["diffuse"] = images.add(pixels_of(diffuse, ball.width, Transfer::kSrgb));
+    json["diffuse"] = add_image(pixels_of(diffuse, ball.width, Transfer::kSrgb), images);
   json["still"] = add_still(picture, images);
   if (error != nullptr) {
     json["rms"] = error->rms;
@@ -205,24 +215,39 @@ Environment studio_light() {
   return exposed(std::move(studio), 1.0 / luminance);
 }
 
+Json material_json(const MaterialLooks& looks, const JobLooks& models, const LitLooks& lit,
+                   PageImages& images) {
+  Json json = {{"name", looks.name}};
+  json["looks"] = Json::list();
+  const auto add = [&](const std::string& title, const std::string& model, const TexturedBall& ball,
+                       const DisplayedSphere& picture, const PictureError* error) {
+    json["looks"].push_back(look_json(title, model, ball, picture, error, images));
+  };
+  add("source", models.source_model(), looks.source, lit.pictures[0], nullptr);
+  if (looks.copied)
+    add(models.copied_title(), models.target_model(), *looks.copied, lit.pictures[1], &*lit.copied);
+  add("converted", models.target_model(), looks.converted, lit.pictures.back(), &lit.converted);
+  json["maps"] = {{"before", maps_json(looks.before, images)}, {"after", maps_json(looks.after, images)}};
+  return json;
+}
+
 class ReportPage {
  public:
   ReportPage(const ConvertPlan& plan, const std::vector<JobReport>& reports)
-      : plan_(plan), reports_(reports), looks_(plan) {}
+      : plan_(plan), side_(side_of_maps(plan, reports)), looks_(plan) {}
 
   std::string html() {
-    json_["command"] = plan_.command;
-    json_["light"] = light_json(environment_.map);
-    json_["materials"] = Json::list();
     add_materials();
-    if (count_ == 0)
+    if (json_["materials"].empty())
       throw input_error("--report: no material can be shown" +
                         (notes_.empty() ? " (the conversion changed none)" : ": " + notes_.front()));
     std::vector<std::string> notes = plan_.messages;
     for (const std::string& note : looks_.notes()) notes.push_back("note: " + note);
     notes.insert(notes.end(), notes_.begin(), notes_.end());
+    json_["command"] = plan_.command;
+    json_["light"] = light_json(environment_.map);
     json_["notes"] = notes;
-    json_["images"] = images_.urls();
+    for (const auto& [key, url] : images_) json_["images"][key] = url;
     return filled(std::string(kReportHtml), {{"TITLE", escaped(title())},
                                              {"VERSION", std::string(kProgram) + " " + kVersion},
                                              {"STYLE", std::string(kViewerStyle)},
@@ -240,10 +265,10 @@ class ReportPage {
   }
 
   // Returns the width of the largest maps that the page can hold.
-  int side_of_maps() const {
+  static int side_of_maps(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
     std::size_t materials = 0;
-    for (const JobReport& report : reports_)
-      materials += plan_.sets() != nullptr ? 1 : report.count(MaterialState::kConverted);
+    for (const JobReport& report : reports)
+      materials += plan.sets() != nullptr ? 1 : report.count(MaterialState::kConverted);
     const double most = std::sqrt(static_cast<double>(kMostTexels) /
                                   static_cast<double>(std::clamp<std::size_t>(materials, 1, kMostMaterials)));
     int side = kLargestSide;
@@ -251,53 +276,64 @@ class ReportPage {
     return side;
   }
 
+  // Reads the files of strangers in processes of their own, as the conversion does.
   void add_materials() {
-    const int side = side_of_maps();
-    Progress progress("report", plan_.list.jobs.size(), !plan_.quiet);
-    for (const Job& job : plan_.list.jobs) {
-      if (count_ == kMostMaterials) {
-        notes_.push_back("only the first " + std::to_string(kMostMaterials) + " materials are shown");
-        return;
+    const std::vector<Job>& jobs = plan_.list.jobs;
+    ApartJobs apart;
+    apart.count = std::min(jobs.size(), kMostMaterials);
+    apart.at_once = static_cast<unsigned>(std::min(apart.count, static_cast<std::size_t>(plan_.threads)));
+    std::vector<ShownJob> shown(apart.count);
+    Progress progress("report", apart.count, !plan_.quiet);
+    apart.work = [&](std::size_t i, const std::function<void(double)>&) {
+      return packed(shown_job(jobs[i]));
+    };
+    apart.finished = [&](std::size_t i, std::string result) {
+      shown[i] = unpacked<ShownJob>(std::move(result));
+      progress.advance();
+    };
+    apart.crashed = [&](std::size_t i, const std::string& reason) {
+      shown[i].trouble = display_path(jobs[i].name) + ": " + reason;
+      progress.advance();
+    };
+    run_apart(apart);
+    json_["materials"] = Json::list();
+    bool is_cut = jobs.size() > kMostMaterials;
+    for (ShownJob& job : shown) {
+      if (!job.trouble.empty()) notes_.push_back(job.trouble);
+      images_.merge(job.images);
+      for (const std::string& material : job.materials) {
+        is_cut |= json_["materials"].size() == kMostMaterials;
+        if (json_["materials"].size() < kMostMaterials)
+          json_["materials"].push_back(parse_json(material, "report"));
       }
-      if (interruption()) throw Error(ErrorKind::kInterrupted, "interrupted: the report was not written");
-      try {
-        for (const MaterialLooks& looks : looks_.of(job, side, kMostMaterials - count_)) add(looks);
-      } catch (const Error& error) {
-        if (error.kind() != ErrorKind::kInput) throw;
-        notes_.emplace_back(error.what());
-      }
-      progress.advance(1);
     }
+    if (is_cut) notes_.push_back("only the first " + std::to_string(kMostMaterials) + " materials are shown");
   }
 
-  void add(const MaterialLooks& looks) {
-    SphereSampling sampling;
-    sampling.resolution = kStillSide;
-    sampling.samples = kStillDirections;
-    sampling.jobs = static_cast<unsigned>(plan_.threads);
-    const LitLooks lit = light(looks, pyramid_, sampling);
-    Json json = {{"name", looks.name}};
-    json["looks"] = Json::list();
-    const std::string &source = looks_.source_model(), &target = looks_.target_model();
-    json["looks"].push_back(look_json("source", source, looks.source, lit.pictures[0], nullptr, images_));
-    if (looks.copied)
-      json["looks"].push_back(
-          look_json(looks_.copied_title(), target, *looks.copied, lit.pictures[1], &*lit.copied, images_));
-    json["looks"].push_back(
-        look_json("converted", target, looks.converted, lit.pictures.back(), &lit.converted, images_));
-    json["maps"] = {{"before", maps_json(looks.before, images_)}, {"after", maps_json(looks.after, images_)}};
-    json_["materials"].push_back(std::move(json));
-    ++count_;
+  ShownJob shown_job(const Job& job) const {
+    ShownJob shown;
+    try {
+      SphereSampling sampling;
+      sampling.resolution = kStillSide;
+      sampling.samples = kStillDirections;
+      sampling.jobs = 1;
+      for (const MaterialLooks& looks : looks_.of(job, side_, kMostMaterials))
+        shown.materials.push_back(
+            material_json(looks, looks_, light(looks, pyramid_, sampling), shown.images).dump());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      shown.trouble = error.what();
+    }
+    return shown;
   }
 
   const ConvertPlan& plan_;
-  const std::vector<JobReport>& reports_;
+  const int side_;
   const JobLooks looks_;
   const Environment environment_ = studio_light();
   const RadiancePyramid pyramid_{std::span(&environment_, 1), kPreviewLightRows};
   PageImages images_;
   std::vector<std::string> notes_;
-  std::size_t count_ = 0;
   Json json_;
 };
 
