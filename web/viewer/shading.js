@@ -29,6 +29,9 @@ void main() {
 
 const SAMPLES = 16;  // of a frame
 const FRAMES = 128;
+// Without a graphics processor a frame takes long. The picture is then drawn at half the resolution, and refined no longer
+// than this.
+const SLOW_FRAME = 250, LONGEST = 5000;  // milliseconds
 const MAPS = ['roughness', 'specular', 'diffuse', 'normal'];
 
 // Returns the texels of the light, [Float32Array] from fine to coarse, whose values are at most 1, and the factor.
@@ -70,6 +73,10 @@ export class Shading {
   #sides = [];  // { look, textures, frames: two textures, count }
   #key = '';  // what the frames were drawn with
   #request = 0;
+  #scale = 1;  // of the resolution
+  #sync = null;  // of the last frame
+  #begun = 0;  // times of the picture and of the last frame
+  #drawn = 0;
 
   /** Throws if the browser lacks WebGL 2 or textures of floats. */
   constructor(canvas, light) {
@@ -237,7 +244,7 @@ export class Shading {
     cancelAnimationFrame(this.#request);
     this.#request = 0;
     const { canvas } = this.#gl;
-    const ratio = Math.min(globalThis.devicePixelRatio ?? 1, 2);
+    const ratio = state.isStill ? 1 : this.#scale * Math.min(globalThis.devicePixelRatio ?? 1, 2);
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side * ratio));
     if (this.#sides.length === 0 || width === 0 || height === 0) return;
     if (canvas.width !== width || canvas.height !== height || this.#sides.some(({ frames }) => frames.length === 0)) {
@@ -248,15 +255,39 @@ export class Shading {
     this.#gl.viewport(0, 0, width, height);
     const { light, zoom, center, object } = state;
     const key = JSON.stringify([light, zoom, center, object]);
-    if (key !== this.#key) for (const side of this.#sides) side.count = 0;
+    if (key !== this.#key) {
+      for (const side of this.#sides) side.count = 0;
+      this.#begun = performance.now();
+    }
     this.#key = key;
     this.#refine(state);
   }
 
+  // Returns true if the last frame is on the screen. Frames that wait for the processor would block the page.
+  #isDrawn() {
+    const gl = this.#gl;
+    if (this.#sync && gl.clientWaitSync(this.#sync, 0, 0) === gl.TIMEOUT_EXPIRED) return false;
+    gl.deleteSync(this.#sync);
+    this.#sync = null;
+    return true;
+  }
+
   #refine(state) {
-    const isRefined = this.#sides[0].count < FRAMES;
-    if (isRefined) for (const side of this.#sides) this.#shade(side, state);
+    const gl = this.#gl;
+    const now = performance.now();
+    let isRefined = this.#sides[0].count < FRAMES && (state.isStill || now - this.#begun < LONGEST);
+    if (isRefined && this.#isDrawn()) {
+      if (!state.isStill && this.#scale === 1 && this.#sides[0].count > 0 && now - this.#drawn > SLOW_FRAME) {
+        this.#scale = 0.5;
+        return this.draw(state);
+      }
+      this.#drawn = now;
+      for (const side of this.#sides) this.#shade(side, state);
+      this.#sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      isRefined = this.#sides[0].count < FRAMES;
+    }
     this.#present(state);
+    gl.flush();
     this.#request = isRefined ? requestAnimationFrame(() => this.#refine(state)) : 0;
   }
 }
