@@ -187,7 +187,7 @@ describe('a report', { skip }, () => {
   test('shows still pictures without WebGL', () => opened(async (page) => {
     assert.match(await page.$eval('#viewer-note', (note) => note.textContent), /no WebGL 2/);
     const stills = await page.$$eval('.view img', (images) => images.map((image) => [image.checkVisibility(), image.naturalWidth, image.alt]));
-    assert.deepEqual(stills, [[true, 256, 'painted_copper: source'], [true, 256, 'painted_copper: converted']]);
+    assert.deepEqual(stills, [[true, 192, 'painted_copper: source'], [true, 192, 'painted_copper: converted']]);
   }, '--disable-3d-apis'));
 
   test('names its controls for screen readers', () => opened(async (page) => {

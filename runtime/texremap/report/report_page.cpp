@@ -34,7 +34,7 @@ namespace {
 constexpr std::size_t kMostMaterials = 16;
 constexpr int kLargestSide = 1024;
 constexpr std::size_t kMostTexels = 2 * kLargestSide * kLargestSide;  // of one map in all materials
-constexpr int kStillSide = 256, kStillDirections = 128;               // of pictures without WebGL
+constexpr int kStillSide = 192, kStillDirections = 96;                // of pictures without WebGL
 constexpr std::size_t kLargestPng = 256 * 1024;                       // a larger image becomes JPEG
 constexpr int kLightRows = 128;                                       // of the light that the viewer reads
 constexpr int kJpegQuality = 92;
