@@ -113,52 +113,32 @@ std::vector<WarpTexel> texels_at(const TextureMaterial& material, const std::vec
   return texels;
 }
 
-// A Cloud holds the points of a material in its space.
-struct Cloud {
-  PlottedPoints texels;
-  std::vector<PlottedPoints> strokes;
-};
-
-Cloud cloud_of(const TextureMaterial& material, const AppearanceCoordinates& coordinates,
-               const std::vector<StrokePair>& strokes, StrokeSide side) {
-  Cloud cloud;
+// Returns the points of a material in its space: its texels, and then each of its strokes.
+std::vector<PlottedPoints> layers_of(const TextureMaterial& material,
+                                     const AppearanceCoordinates& coordinates,
+                                     const std::vector<StrokePair>& strokes, StrokeSide side) {
   const std::vector<WarpTexel> texels =
       texels_at(material, sample_texels(material.material, kMostPoints), kMostPoints);
-  cloud.texels.positions = positions_of(coordinates, texels);
-  cloud.texels.radius = 0.8;
+  std::vector<PlottedPoints> layers{{positions_of(coordinates, texels), {}, 0.8}};
   for (const WarpTexel& texel : texels)
-    cloud.texels.colors.push_back(shaded_color(texel, material.material.model));
+    layers.front().colors.push_back(shaded_color(texel, material.material.model));
   for (std::size_t k = 0; k < strokes.size(); ++k)
-    cloud.strokes.push_back(
-        {positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
-         {stroke_color(k)},
-         1.8});
-  return cloud;
-}
-
-Cloud moved(const Cloud& cloud, const SmoothWarp& warp) {
-  Cloud images = cloud;
-  images.texels.positions = images_of(warp, cloud.texels.positions);
-  for (PlottedPoints& stroke : images.strokes) stroke.positions = images_of(warp, stroke.positions);
-  return images;
-}
-
-void append(const Cloud& cloud, std::vector<PlottedPoints>& layers) {
-  layers.push_back(cloud.texels);
-  layers.insert(layers.end(), cloud.strokes.begin(), cloud.strokes.end());
-}
-
-std::vector<PlottedPoints> layers_of(const Cloud& cloud) {
-  std::vector<PlottedPoints> layers;
-  append(cloud, layers);
+    layers.push_back({positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
+                      {stroke_color(k)},
+                      1.8});
   return layers;
 }
 
-// Draws the source's points over the template's.
-std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
-  std::vector<PlottedPoints> layers{{below.texels.positions, {kGrey}, 1.6}};
-  append(cloud, layers);
+std::vector<PlottedPoints> moved(std::vector<PlottedPoints> layers, const SmoothWarp& warp) {
+  for (PlottedPoints& layer : layers) layer.positions = images_of(warp, layer.positions);
   return layers;
+}
+
+// Draws the source's points over the template's texels.
+std::vector<PlottedPoints> over_grey(const PlottedPoints& texels, const std::vector<PlottedPoints>& layers) {
+  std::vector<PlottedPoints> all{{texels.positions, {kGrey}, 1.6}};
+  all.insert(all.end(), layers.begin(), layers.end());
+  return all;
 }
 
 std::string escaped(const std::string& text) {
@@ -251,15 +231,17 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
   pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
   pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
 
-  const Cloud own = cloud_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
-  const Cloud goal = cloud_of(target, fit.target_coordinates(), strokes, &StrokePair::target);
-  const std::vector<PlottedPoints> before = layers_over(goal, own),
-                                   after = layers_over(goal, moved(own, fit.warp));
+  const std::vector<PlottedPoints> own =
+      layers_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
+  const std::vector<PlottedPoints> goal =
+      layers_of(target, fit.target_coordinates(), strokes, &StrokePair::target);
+  const std::vector<PlottedPoints> before = over_grey(goal.front(), own),
+                                   after = over_grey(goal.front(), moved(own, fit.warp));
   std::vector<PlottedPoints> all = before;
   all.insert(all.end(), after.begin(), after.end());
   const PlotBox box = box_around(all);
-  pictures.source_space = appearance_plot(layers_of(own), box, kSide);
-  pictures.target_space = appearance_plot(layers_of(goal), box, kSide);
+  pictures.source_space = appearance_plot(own, box, kSide);
+  pictures.target_space = appearance_plot(goal, box, kSide);
   pictures.before = appearance_plot(before, box, kSide);
   pictures.after = appearance_plot(after, box, kSide);
   return pictures;

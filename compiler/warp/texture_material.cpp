@@ -26,7 +26,7 @@ bool is_albedo(const FoundSet& set) {
 }
 
 FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
-  DiscoveryOptions options;
+  WalkOptions options;
   options.recursive = false;
   Discovery found = find_sets(folder, options);
   std::erase_if(found.sets, [&](const FoundSet& set) {

@@ -179,8 +179,7 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
          "; keep one, or choose by --prefer WORD";
 }
 
-Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
-  const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();
+Discovery find_sets(const fs::path& root, const WalkOptions& options, const Naming& naming) {
   Walk walk = walk_images(root, options);
   Discovery discovery;
   discovery.problems = std::move(walk.problems);

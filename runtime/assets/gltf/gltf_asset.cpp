@@ -130,13 +130,11 @@ AssetConversion convert_gltf(const ByteSource& source, const std::string& contex
   const SpannedJson json(container.json, context);
   std::vector<std::string> warnings = container.notes;
   for (const std::string& warning : ViewCheck(json, container, context).run()) warnings.push_back(warning);
-  GltfResult result = convert_materials({json, container, source, context}, options, resources);
-  AssetConversion& conversion = result.asset;
+  AssetConversion conversion = convert_materials({json, container, source, context}, options, resources);
   conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
   conversion.resources = resources_of(json);
   if (options.compacts && conversion.changed) drop_unnamed(conversion, context);
-  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, context);
-  return std::move(conversion);
+  return conversion;
 }
 
 }  // namespace remap

@@ -50,15 +50,11 @@ struct ColorSpaceWord {
   Transfer transfer;
 };
 
-// An InputWord is `NAME=MAP` or `NAME=NUMBERS`.
-struct InputWord {
+// A ParameterWord is `NAME=VALUE`.
+template <typename Value>
+struct ParameterWord {
   Parameter parameter;
-  MapSource source;
-};
-// A FactorWord is `NAME=NUMBERS`.
-struct FactorWord {
-  Parameter parameter;
-  std::vector<float> factors;
+  Value value;
 };
 
 // An F0Choice is the source of the F0 of dielectrics.
@@ -96,8 +92,8 @@ struct ConvertOptions {
   std::optional<MapSource> glossiness;  // also in `maps`, as roughness
   std::optional<MapSource> occlusion;
   std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
-  std::vector<InputWord> inputs;                        // also in `maps`
-  std::vector<FactorWord> factors;
+  std::vector<ParameterWord<MapSource>> inputs;         // also in `maps`
+  std::vector<ParameterWord<std::vector<float>>> factors;
   std::vector<std::string> prefer;  // choice among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
   std::filesystem::path names;

@@ -99,7 +99,7 @@ AssetConversion convert_asset(const ByteSource& source, const fs::path& input, c
       return convert_mtl(source, display_path(input), options, &resources);
     case AssetKind::kObj:
       return gltf_of_obj(source, display_path(input), options, resources,
-                         {extension_of(output) == ".glb", output.stem().string()});
+                         extension_of(output) == ".glb" ? "" : output.stem().string() + ".bin");
     default:
       return convert_gltf(source, display_path(input), options, &resources);
   }

@@ -92,8 +92,8 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
           option + " " + plain_name(parameter) +
           ": has no effect, because the source material has no such input (remove this option)");
   };
-  for (const FactorWord& word : options.factors) refuse_input("--factor", word.parameter);
-  for (const InputWord& word : options.inputs) refuse_input("--input", word.parameter);
+  for (const auto& word : options.factors) refuse_input("--factor", word.parameter);
+  for (const auto& word : options.inputs) refuse_input("--input", word.parameter);
 }
 
 // Refuses options of folders if there is only one set, and maps that cannot be used with a folder.

@@ -47,7 +47,7 @@ std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFi
     }
   };
   for (const auto& [parameter, asked] : set.request.parameters) add(plain_name(parameter), asked);
-  for (const CarriedRequest& carried : set.request.carried) add(carried.name, carried.parameter);
+  for (const Carried<ParameterRequest>& carried : set.request.carried) add(carried.name, carried.parameter);
   hash.add(set.request.convention ? encoding_name(*set.request.convention) : "");
   for (const auto& file : copied) hash.add_file(*file);
   return hash.hex();
@@ -128,14 +128,14 @@ JobReport::Result result_of(const PlannedMap& planned) {
   return result;
 }
 
-class SetWorker final : public JobWorker {
+class SetWorker {
  public:
   SetWorker(const ConvertPlan& plan, OutputFolder& folder, int threads)
       : plan_(plan), sets_(*plan.sets()), chosen_(sets_.chosen), folder_(folder), pass_(sets_.pass) {
     pass_.thread_count = threads;
     pass_.cancelled = &interruption();
   }
-  void run(const Job& job, const std::function<void(double)>& progress, JobReport& report) override;
+  void run(const Job& job, const std::function<void(double)>& progress, JobReport& report);
 
  private:
   void commit(const Job& job, const TargetPlan& targets, const OpenFiles& files, const std::string& inputs,
@@ -225,7 +225,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   const auto packed = std::ranges::find_if(targets, has_constant);
   if (packed != targets.end() && sets_.targets.layout.file_with(Parameter::kMetallic) != nullptr) {
     const auto note = [&](const std::string& name, const std::string& value) {
-      const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
+      const auto has_name = [&](const Carried<SetParameter>& carried) { return carried.name == name; };
       if (sets_.targets.layout.has_place_for(name) && std::ranges::none_of(set.carried, has_name))
         report.warnings.push_back(packed->writer->path().string() + ": no " + name + " map; " + name +
                                   " is set to " + value);
@@ -363,8 +363,11 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
 
 }  // namespace
 
-std::unique_ptr<JobWorker> set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads) {
-  return std::make_unique<SetWorker>(plan, folder, threads);
+JobWorker set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads) {
+  const auto worker = std::make_shared<SetWorker>(plan, folder, threads);
+  return [worker](const Job& job, const std::function<void(double)>& progress, JobReport& report) {
+    worker->run(job, progress, report);
+  };
 }
 
 void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
