@@ -254,20 +254,21 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 }  // namespace
 
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const WidthSource& source, RoughnessEncoding usual) {
+                                const TextureSet& set, RoughnessEncoding usual) {
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
   const RoughnessEncoding wanted = asked.value_or(usual);
   if (const auto held = choice.layout.width()) {
     if (*held == kGlossiness) return kGlossiness;
     return wanted == kGlossiness ? kRoughness : wanted;
   }
-  if (!choice.layout.keeps_names || source.file.empty()) return wanted;
-  const bool is_glossy = source.convention == kGlossiness;
+  const SetParameter* const map = set.map_of(Parameter::kRoughness);
+  if (!choice.layout.keeps_names || map == nullptr) return wanted;
+  const bool is_glossy = set.convention == kGlossiness;
   if (asked && is_glossy != (*asked == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
-                                       ": the result keeps the name " + source.file.filename().string() +
-                                       ", which means " + (is_glossy ? "glossiness" : "roughness") +
-                                       " (use --layout separate)");
+    throw Error(ErrorKind::kUsage,
+                "--output-encoding " + std::string(encoding_name(*asked)) + ": the result keeps the name " +
+                    set.maps[map->channels.front().map].path().filename().string() + ", which means " +
+                    (is_glossy ? "glossiness" : "roughness") + " (use --layout separate)");
   if (is_glossy) return kGlossiness;
   return wanted == kGlossiness ? kRoughness : wanted;
 }

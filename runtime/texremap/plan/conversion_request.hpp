@@ -39,16 +39,11 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
 std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request);
 // Sets the parameters that a set's translation writes, and those that it keeps.
 void apply(const TranslationEffect& effect, TargetChoice& choice);
-// A WidthSource is the roughness of a set before the conversion.
-struct WidthSource {
-  std::filesystem::path file;                   // empty for a number
-  std::optional<RoughnessEncoding> convention;  // set if an option or the file name states it
-};
 // Returns the encoding of a set's roughness results: --output-encoding, or `usual` without this option. Names
 // stay true. A glossiness map that keeps its name stays glossiness, orm and arm hold roughness, and specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const WidthSource& source, RoughnessEncoding usual);
+                                const TextureSet& set, RoughnessEncoding usual);
 // Refuses --exponent-of-white for results without an exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 

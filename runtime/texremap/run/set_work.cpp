@@ -85,12 +85,6 @@ std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
   return files;
 }
 
-WidthSource width_source(const TextureSet& set) {
-  const SetParameter* map = set.map_of(Parameter::kRoughness);
-  if (map == nullptr) return {{}, set.convention};
-  return {set.maps[map->channels.front().map].path(), set.convention};
-}
-
 // Records the color spaces in which the set is read and written.
 void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) {
   for (const auto& [parameter, values] : set.parameters)
@@ -303,8 +297,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
                         " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
-  const RoughnessEncoding width =
-      written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
+  const RoughnessEncoding width = written_width(sets_.pass.target_convention, choice, set, usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                           ? "exponent"
