@@ -104,24 +104,22 @@ Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& b
   return picture;
 }
 
-std::vector<WarpTexel> texels_at(const TextureMaterial& material, const std::vector<std::uint32_t>& indices,
+std::vector<WarpTexel> texels_at(const WarpMaterial& material, const std::vector<std::uint32_t>& indices,
                                  std::size_t most) {
   std::vector<WarpTexel> texels;
   const std::size_t count = std::min(indices.size(), most);
   for (std::size_t i = 0; i < count; ++i)
-    texels.push_back(material.material.texels[indices[i * indices.size() / count]]);
+    texels.push_back(material.texels[indices[i * indices.size() / count]]);
   return texels;
 }
 
 // Returns the points of a material in its space: its texels, and then each of its strokes.
-std::vector<PlottedPoints> layers_of(const TextureMaterial& material,
-                                     const AppearanceCoordinates& coordinates,
+std::vector<PlottedPoints> layers_of(const WarpMaterial& material, const AppearanceCoordinates& coordinates,
                                      const std::vector<StrokePair>& strokes, StrokeSide side) {
   const std::vector<WarpTexel> texels =
-      texels_at(material, sample_texels(material.material, kMostPoints), kMostPoints);
+      texels_at(material, sample_texels(material, kMostPoints), kMostPoints);
   std::vector<PlottedPoints> layers{{positions_of(coordinates, texels), {}, 0.8}};
-  for (const WarpTexel& texel : texels)
-    layers.front().colors.push_back(shaded_color(texel, material.material.model));
+  for (const WarpTexel& texel : texels) layers.front().colors.push_back(shaded_color(texel, material.model));
   for (std::size_t k = 0; k < strokes.size(); ++k)
     layers.push_back({positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
                       {stroke_color(k)},
@@ -218,16 +216,16 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
 
 }  // namespace
 
-WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
+WarpPictures warp_pictures(const WarpMaterial& source, const WarpMaterial& target,
                            const std::vector<StrokePair>& strokes, const WarpFit& fit) {
   const PictureGrid from = picture_grid(source.width, source.height, kSide);
   const PictureGrid to = picture_grid(target.width, target.height, kSide);
-  std::vector<WarpTexel> samples = samples_of(from, source.material.texels);
+  std::vector<WarpTexel> samples = samples_of(from, source.texels);
   WarpPictures pictures;
-  pictures.source = shaded_map(from, samples, source.material.model);
-  pictures.target = shaded_map(to, samples_of(to, target.material.texels), target.material.model);
+  pictures.source = shaded_map(from, samples, source.model);
+  pictures.target = shaded_map(to, samples_of(to, target.texels), target.model);
   for (WarpTexel& sample : samples) sample = evaluate_warp(fit.compiled, sample);
-  pictures.result = shaded_map(from, samples, target.material.model);
+  pictures.result = shaded_map(from, samples, target.model);
   pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
   pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "look/image.hpp"
-#include "warp/texture_material.hpp"
 #include "warp/warp.hpp"
 
 namespace remap {
@@ -26,7 +25,7 @@ struct WarpPictures {
 
 // Draws the pictures. The result comes from the compiled converter. Draws at most 16384 points of each
 // material and 512 points of each stroke.
-WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
+WarpPictures warp_pictures(const WarpMaterial& source, const WarpMaterial& target,
                            const std::vector<StrokePair>& strokes, const WarpFit& fit);
 
 // A WarpWords holds the texts of the report.

@@ -189,7 +189,7 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
       if (parameter.name == name) return {carried_channel(parameter.parameter)};
     return {otherwise};
   };
-  if (const auto* other = std::get_if<LayoutCarried>(&content)) return carried(other->name, other->otherwise);
+  if (const auto* other = std::get_if<std::string>(&content)) return carried(*other, 1.0f);
   const Parameter parameter = std::get<LayoutParameter>(content).parameter;
   if (parameter == Parameter::kMetallic && !is_wanted(choice, parameter))
     return carried(std::string(parameter_name(parameter)), 0.0f);
@@ -203,9 +203,9 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
 bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
     if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);
-    const auto* other = std::get_if<LayoutCarried>(&content);
+    const auto* other = std::get_if<std::string>(&content);
     return other != nullptr && std::ranges::any_of(set.carried, [&](const Carried<SetParameter>& carried) {
-             return carried.name == other->name;
+             return carried.name == *other;
            });
   });
 }

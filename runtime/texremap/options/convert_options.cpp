@@ -122,7 +122,7 @@ double number_of(const std::string& option, const std::string& text, double high
 
 Reader<F0Choice> f0_choice() {
   return {[](const std::string& option, const std::string& word) -> F0Choice {
-            if (word == "estimate") return FromMaps{};
+            if (word == "estimate") return F0Source::kMaps;
             return number_of(option, word, 0.9, "0 to 0.9, or estimate");
           },
           {}};

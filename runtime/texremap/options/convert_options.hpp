@@ -57,9 +57,9 @@ struct ParameterWord {
   Value value;
 };
 
-// An F0Choice is the source of the F0 of dielectrics.
-struct FromMaps {};
-using F0Choice = std::variant<std::monostate, double, FromMaps>;  // by default: the F0 of the model
+// An F0Choice is the F0 of dielectrics, or where it comes from.
+enum class F0Source { kModel, kMaps };
+using F0Choice = std::variant<F0Source, double>;  // by default: the F0 of the model
 
 // Returns a reader for a model in `--from` and `--to`.
 Reader<ModelName> model_name();
