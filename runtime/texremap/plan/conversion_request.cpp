@@ -196,7 +196,7 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
   return files;
 }
 
-CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
+CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
   const auto text = [](NormalGreen green) {
     return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
   };
@@ -206,7 +206,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   const auto of_source = normals_of(options.from);
   const std::string from = "--from " + std::string(options.from.word());
   const std::optional<StatedGreen> stated = stated_green(source.filename().string());
-  CopiedNormals normals{{source, "", ""}, ""};
+  CopiedFile normals{source, "", ""};
   if (!wanted) {
     if (engine != nullptr) normals.reason = target + " reads both directions";
     return normals;
@@ -227,7 +227,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
   std::error_code ignored;
   if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
-  normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
+  normals.turned_name = turned.replace_extension(written_extension(turned)).string();
   normals.reason =
       (stated ? "its name" : from) + " means " + text(green) + ", but " + target + " reads " + text(*wanted);
   return normals;

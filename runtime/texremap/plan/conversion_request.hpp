@@ -20,14 +20,10 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
 std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // Returns the files to copy if the options name one set.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
-// A CopiedNormals is the copy of a normal map in a folder. The direction of green comes from the name of the
-// map, otherwise from the source model. If the target has the other direction, the copy has inverted green,
-// unless the folder already has a map with that direction.
-struct CopiedNormals {
-  CopiedFile copy;
-  std::string reason;  // why green is inverted, or kept although nothing is known; or empty
-};
-CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
+// Returns the copy of a normal map in a folder. The direction of green comes from the name of the map,
+// otherwise from the source model. If the target has the other direction, the copy has inverted green, unless
+// the folder already has a map with that direction.
+CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
 // Returns the file that an option gives for every set of a folder: the given path, or a path below the
 // folder. Returns nothing for a pattern and for a name in the folders of sets.
 std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,

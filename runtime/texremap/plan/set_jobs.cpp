@@ -389,9 +389,9 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
       work.copies.push_back({source, "", ""});
       continue;
     }
-    CopiedNormals normals = copied_normals(options_, source);
-    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals.copy);
-    work.copies.push_back(std::move(normals.copy));
+    CopiedFile normals = copied_normals(options_, source);
+    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals);
+    work.copies.push_back(std::move(normals));
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "check/color_issue.hpp"
@@ -234,27 +235,21 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// A FinishedCopies holds finished copies without a final name. Its destructor removes copies that never get
-// one.
-class FinishedCopies {
- public:
-  FinishedCopies() = default;
-  FinishedFile add(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source) {
-    if (copy.turns_green) return finished_file(*turned_.emplace_back(turned_copy(source, copy.path)));
-    NewFile& whole = *whole_.emplace_back(std::make_unique<NewFile>(copy.path));
-    add_copy(*source, whole);
-    whole.finish();
-    return finished_file(whole);
+// Makes a finished copy without a final name, and appends the function that gives it the name. The copy is
+// removed with this function if it never gets a name.
+FinishedFile finished_copy(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source,
+                           std::vector<std::function<void()>>& renames) {
+  if (copy.turns_green) {
+    const std::shared_ptr<NewImage> image = turned_copy(source, copy.path);
+    renames.push_back([image] { image->commit(Flush::kNo); });
+    return finished_file(*image);
   }
-  void commit() {
-    for (const auto& image : turned_) image->commit(Flush::kNo);
-    for (const auto& file : whole_) file->commit(Flush::kNo);
-  }
-
- private:
-  std::vector<std::unique_ptr<NewImage>> turned_;
-  std::vector<std::unique_ptr<NewFile>> whole_;
-};
+  const auto file = std::make_shared<NewFile>(copy.path);
+  renames.push_back([file] { file->commit(Flush::kNo); });
+  add_copy(*source, *file);
+  file->finish();
+  return finished_file(*file);
+}
 
 // Gives the finished results and copies of a set their final names.
 void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFiles& files,
@@ -262,12 +257,12 @@ void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFile
   folder_.begin(results_of(targets));
   std::vector<FinishedFile> results;
   for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
-  FinishedCopies copies;
+  std::vector<std::function<void()>> renames;
   for (const PlannedCopy& copy : targets.copies)
-    results.push_back(copies.add(copy, file_among(files, copy.source)));
+    results.push_back(finished_copy(copy, file_among(files, copy.source), renames));
   folder_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, [&] {
     for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
-    copies.commit();
+    for (const auto& rename : renames) rename();
   });
 }
 
