@@ -73,25 +73,24 @@ WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t 
   return file;
 }
 
-WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const WarpMapFit& file) {
+// Returns names and values for the report.
+std::vector<std::pair<std::string, std::string>> facts_of(const WarpCommand& command, const WarpFit& fit,
+                                                          const WarpMapFit& file) {
   const WarpDiagnostics& found = fit.diagnostics;
   return {
-      "Warp " + file.id,
-      {{"source", command.source + ", " + command.source_model},
-       {"template", command.target + ", " + command.target_model},
-       {"stroke pairs", file.method.at("strokes")},
-       {"dimensions", std::to_string(found.dimensions) + " (source " +
-                          std::to_string(found.source_dimensions) + ", template " +
-                          std::to_string(found.target_dimensions) + ")"},
-       {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
-       {"directions fixed by strokes", std::to_string(found.fixed_directions)},
-       {"used part of the template's appearances", percent(found.coverage)},
-       {"folds", percent(found.fold_share)},
-       {"distance of strokes after the warp, relative to the template's spread",
-        percent(found.stroke_distance)},
-       {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}},
-      file.remarks,
-      static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
+      {"source", command.source + ", " + command.source_model},
+      {"template", command.target + ", " + command.target_model},
+      {"stroke pairs", file.method.at("strokes")},
+      {"dimensions", std::to_string(found.dimensions) + " (source " +
+                         std::to_string(found.source_dimensions) + ", template " +
+                         std::to_string(found.target_dimensions) + ")"},
+      {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
+      {"directions fixed by strokes", std::to_string(found.fixed_directions)},
+      {"used part of the template's appearances", percent(found.coverage)},
+      {"folds", percent(found.fold_share)},
+      {"distance of strokes after the warp, relative to the template's spread",
+       percent(found.stroke_distance)},
+      {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}};
 }
 
 Json report_of(const WarpDiagnostics& found) {
@@ -155,9 +154,13 @@ void warp_textures(const WarpCommand& command) {
     for (const std::filesystem::path& copy :
          write_copied_set(command.copy, copy_exactly(fit, source, target), source, target))
       json["copies"].push_back(copy.string());
-  if (!command.report.empty())
-    write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
-                      words_of(command, fit, file));
+  if (!command.report.empty()) {
+    WarpReport report = warp_report(source, target, strokes, fit);
+    report.title = "Warp " + file.id;
+    report.facts = facts_of(command, fit, file);
+    report.warnings = file.remarks;
+    write_warp_report(command.report, report);
+  }
   if (command.json) {
     json.update({{"bytes", byte_count(fit.compiled)},
                  {"seconds", seconds},

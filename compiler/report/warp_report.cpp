@@ -189,23 +189,23 @@ constexpr const char* kHead =
     ".key { display: inline-block; width: 0.9em; height: 0.9em; margin-left: 0.7em }\n"
     "</style>\n";
 
-std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<title>" + escaped(words.title) +
-                     "</title>\n" + kHead + "</head>\n<body>\n<h1>" + escaped(words.title) + "</h1>\n";
-  for (const std::string& warning : words.warnings)
+std::string report_html(const WarpReport& report) {
+  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<title>" + escaped(report.title) +
+                     "</title>\n" + kHead + "</head>\n<body>\n<h1>" + escaped(report.title) + "</h1>\n";
+  for (const std::string& warning : report.warnings)
     html += "<p class=\"warning\">" + escaped(warning) + "</p>\n";
-  html += "<div class=\"row\">\n" + figure_html(pictures.source, "Source") +
-          figure_html(pictures.target, "Template") +
-          figure_html(pictures.result, "Result: pattern of the source, reflectance of the template") +
-          "</div>\n<h2>Strokes</h2>\n" + stroke_key(words.stroke_count) + "<div class=\"row\">\n" +
-          figure_html(pictures.source_strokes, "Strokes on the source") +
-          figure_html(pictures.target_strokes, "Strokes on the template") +
+  html += "<div class=\"row\">\n" + figure_html(report.source, "Source") +
+          figure_html(report.target, "Template") +
+          figure_html(report.result, "Result: pattern of the source, reflectance of the template") +
+          "</div>\n<h2>Strokes</h2>\n" + stroke_key(report.stroke_count) + "<div class=\"row\">\n" +
+          figure_html(report.source_strokes, "Strokes on the source") +
+          figure_html(report.target_strokes, "Strokes on the template") +
           "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates. Each point is a texel in its "
           "color; texels of strokes have the colors of the strokes.</p>\n<div class=\"row small\">\n" +
-          figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
-          figure_html(pictures.before, "Before the warp: source over template (grey)") +
-          figure_html(pictures.after, "After the warp") + "</div>\n<h2>Figures</h2>\n<table>\n";
-  for (const auto& [name, value] : words.facts)
+          figure_html(report.source_space, "Source") + figure_html(report.target_space, "Template") +
+          figure_html(report.before, "Before the warp: source over template (grey)") +
+          figure_html(report.after, "After the warp") + "</div>\n<h2>Figures</h2>\n<table>\n";
+  for (const auto& [name, value] : report.facts)
     html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return html +
          "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker light "
@@ -216,18 +216,19 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
 
 }  // namespace
 
-WarpPictures warp_pictures(const WarpMaterial& source, const WarpMaterial& target,
-                           const std::vector<StrokePair>& strokes, const WarpFit& fit) {
+WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
+                       const std::vector<StrokePair>& strokes, const WarpFit& fit) {
   const PictureGrid from = picture_grid(source.width, source.height, kSide);
   const PictureGrid to = picture_grid(target.width, target.height, kSide);
   std::vector<WarpTexel> samples = samples_of(from, source.texels);
-  WarpPictures pictures;
-  pictures.source = shaded_map(from, samples, source.model);
-  pictures.target = shaded_map(to, samples_of(to, target.texels), target.model);
+  WarpReport report;
+  report.stroke_count = strokes.size();
+  report.source = shaded_map(from, samples, source.model);
+  report.target = shaded_map(to, samples_of(to, target.texels), target.model);
   for (WarpTexel& sample : samples) sample = evaluate_warp(fit.compiled, sample);
-  pictures.result = shaded_map(from, samples, target.model);
-  pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
-  pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
+  report.result = shaded_map(from, samples, target.model);
+  report.source_strokes = with_strokes(report.source, from, strokes, &StrokePair::source);
+  report.target_strokes = with_strokes(report.target, to, strokes, &StrokePair::target);
 
   const std::vector<PlottedPoints> own =
       layers_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
@@ -238,11 +239,11 @@ WarpPictures warp_pictures(const WarpMaterial& source, const WarpMaterial& targe
   std::vector<PlottedPoints> all = before;
   all.insert(all.end(), after.begin(), after.end());
   const PlotBox box = box_around(all);
-  pictures.source_space = appearance_plot(own, box, kSide);
-  pictures.target_space = appearance_plot(goal, box, kSide);
-  pictures.before = appearance_plot(before, box, kSide);
-  pictures.after = appearance_plot(after, box, kSide);
-  return pictures;
+  report.source_space = appearance_plot(own, box, kSide);
+  report.target_space = appearance_plot(goal, box, kSide);
+  report.before = appearance_plot(before, box, kSide);
+  report.after = appearance_plot(after, box, kSide);
+  return report;
 }
 
 void require_report_path(const std::filesystem::path& path) {
@@ -250,10 +251,9 @@ void require_report_path(const std::filesystem::path& path) {
     throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
 }
 
-void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
-                       const WarpWords& words) {
+void write_warp_report(const std::filesystem::path& path, const WarpReport& report) {
   require_report_path(path);
-  write_file(path, report_html(pictures, words));
+  write_file(path, report_html(report));
 }
 
 }  // namespace remap
