@@ -1,6 +1,7 @@
 #include "paths/path_search.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <tuple>
