@@ -12,7 +12,6 @@
 #include "core/json.hpp"
 #include "core/read_file.hpp"
 #include "fit/baselines.hpp"
-#include "fit/fit_table.hpp"
 #include "report/fit_plot.hpp"
 #include "table/split.hpp"
 
@@ -73,12 +72,12 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
   const bool own_table = fit.table.sha256 == digest;
   const std::vector<TableRow> inside = rows_inside(rows, fit.domain);
   const std::size_t outside = rows.size() - inside.size();
-  const RowErrors errors = row_errors(fit, inside);
+  const Residuals residuals = residuals_of(inside, fit);
   CandidateRecord candidate;
   candidate.name = name + " (" + fit_label(fit) + ")";
   candidate.number_count = number_count(fit.mapping);
-  candidate.alpha = errors.alpha;
-  candidate.specular = errors.specular;
+  candidate.alpha = error_figures(residuals.alpha);
+  candidate.specular = error_figures(residuals.specular);
   if (own_table) candidate.verdict = "fitted from this table, training rows included";
   if (outside != 0)
     candidate.verdict +=

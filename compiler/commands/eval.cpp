@@ -11,7 +11,6 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
-#include "fit/fit_table.hpp"
 #include "lower/interpreter.hpp"
 #include "table/split.hpp"
 
@@ -64,7 +63,8 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
   if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
-  const RowErrors errors = row_errors(fit, rows);
+  const Residuals residuals = residuals_of(rows, fit);
+  const ErrorFigures alpha = error_figures(residuals.alpha), specular = error_figures(residuals.specular);
   const bool same_table = sha256(bytes) == fit.table.sha256;
   if (options.json) {
     const Json json = {{"fit", fit.id},
@@ -72,8 +72,8 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
                        {"fitted_from_this_table", same_table},
                        {"rows", rows.size()},
                        {"rows_outside_domain", outside},
-                       {"alpha_error", figures_json(errors.alpha)},
-                       {"specular_error", figures_json(errors.specular)}};
+                       {"alpha_error", figures_json(alpha)},
+                       {"specular_error", figures_json(specular)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
@@ -84,8 +84,8 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
   std::cout << fit.id << " on " << rows.size() << " rows of " << table.name
             << (same_table ? " (the table that it was fitted to, training rows included)" : "") << "\n";
   if (outside != 0) std::cout << "  " << outside << " rows outside its domain skipped\n";
-  print("alpha", errors.alpha);
-  print(fit.target.specular, errors.specular);
+  print("alpha", alpha);
+  print(fit.target.specular, specular);
 }
 
 void run(const EvalOptions& options) {

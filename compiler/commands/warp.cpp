@@ -35,8 +35,8 @@ struct WarpCommand {
 };
 
 // Returns the stroke pairs of all options. There is at least one.
-std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
-                                   const MapFrame& target) {
+std::vector<StrokePair> strokes_of(const WarpCommand& command, const MaterialRef& source,
+                                   const MaterialRef& target) {
   std::vector<StrokePair> strokes;
   for (std::size_t i = 0; i + 1 < command.masks.size(); i += 2)
     strokes.push_back({read_stroke(command.masks[i], source), read_stroke(command.masks[i + 1], target)});
@@ -73,25 +73,24 @@ WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t 
   return file;
 }
 
-WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const WarpMapFit& file) {
+// Returns names and values for the report.
+std::vector<std::pair<std::string, std::string>> facts_of(const WarpCommand& command, const WarpFit& fit,
+                                                          const WarpMapFit& file) {
   const WarpDiagnostics& found = fit.diagnostics;
   return {
-      "Warp " + file.id,
-      {{"source", command.source + ", " + command.source_model},
-       {"template", command.target + ", " + command.target_model},
-       {"stroke pairs", file.method.at("strokes")},
-       {"dimensions", std::to_string(found.dimensions) + " (source " +
-                          std::to_string(found.source_dimensions) + ", template " +
-                          std::to_string(found.target_dimensions) + ")"},
-       {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
-       {"directions fixed by strokes", std::to_string(found.fixed_directions)},
-       {"used part of the template's appearances", percent(found.coverage)},
-       {"folds", percent(found.fold_share)},
-       {"distance of strokes after the warp, relative to the template's spread",
-        percent(found.stroke_distance)},
-       {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}},
-      file.remarks,
-      static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
+      {"source", command.source + ", " + command.source_model},
+      {"template", command.target + ", " + command.target_model},
+      {"stroke pairs", file.method.at("strokes")},
+      {"dimensions", std::to_string(found.dimensions) + " (source " +
+                         std::to_string(found.source_dimensions) + ", template " +
+                         std::to_string(found.target_dimensions) + ")"},
+      {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
+      {"directions fixed by strokes", std::to_string(found.fixed_directions)},
+      {"used part of the template's appearances", percent(found.coverage)},
+      {"folds", percent(found.fold_share)},
+      {"distance of strokes after the warp, relative to the template's spread",
+       percent(found.stroke_distance)},
+      {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}};
 }
 
 Json report_of(const WarpDiagnostics& found) {
@@ -134,17 +133,17 @@ void require_outputs(const WarpCommand& command) {
 
 void warp_textures(const WarpCommand& command) {
   require_outputs(command);
-  const TextureMaterial source =
+  const WarpMaterial source =
       read_texture_material(command.source, command.source_model, AlbedoAlone::kEnrich);
-  const TextureMaterial target = read_texture_material(command.target, command.target_model);
-  const std::vector<StrokePair> strokes = strokes_of(command, source.frame(), target.frame());
+  const WarpMaterial target = read_texture_material(command.target, command.target_model);
+  const std::vector<StrokePair> strokes = strokes_of(command, source, target);
   const Stopwatch stopwatch;
-  const WarpFit fit = fit_warp(source.material, target.material, strokes,
-                               distance_of(command, AppearanceDistance::kRelative), command.exact);
+  const WarpFit fit =
+      fit_warp(source, target, strokes, distance_of(command, AppearanceDistance::kRelative), command.exact);
   const double seconds = stopwatch.seconds();
   WarpMapFit file = fit_file(command, fit, strokes.size());
   if (source.is_albedo) file.method[kWarpSourceMaps] = kDiffuseAlone;
-  file.copy_rms_error = rounded_up(copy_rms_error(fit, source.material, target.material), 3);
+  file.copy_rms_error = rounded_up(copy_rms_error(fit, source, target), 3);
 
   Json json;
   if (!command.output.empty()) {
@@ -153,12 +152,15 @@ void warp_textures(const WarpCommand& command) {
   }
   if (!command.copy.empty())
     for (const std::filesystem::path& copy :
-         write_copied_set(command.copy, copy_exactly(fit, source.material, target.material), source.frame(),
-                          target.material, target.frame()))
+         write_copied_set(command.copy, copy_exactly(fit, source, target), source, target))
       json["copies"].push_back(copy.string());
-  if (!command.report.empty())
-    write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
-                      words_of(command, fit, file));
+  if (!command.report.empty()) {
+    WarpReport report = warp_report(source, target, strokes, fit);
+    report.title = "Warp " + file.id;
+    report.facts = facts_of(command, fit, file);
+    report.warnings = file.remarks;
+    write_warp_report(command.report, report);
+  }
   if (command.json) {
     json.update({{"bytes", byte_count(fit.compiled)},
                  {"seconds", seconds},
@@ -178,7 +180,7 @@ void warp_textures(const WarpCommand& command) {
   print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
 }
 
-using MaterialSet = std::variant<TextureMaterial, TabulatedMaterial>;
+using MaterialSet = std::variant<WarpMaterial, TabulatedMaterial>;
 
 MaterialSet read_material_set(const std::string& folder, const std::string& model) {
   if (is_tabulated_folder(folder)) return read_tabulated_set(folder);
@@ -186,14 +188,7 @@ MaterialSet read_material_set(const std::string& folder, const std::string& mode
 }
 
 MaterialRef ref_of(const MaterialSet& set) {
-  if (const auto* maps = std::get_if<TextureMaterial>(&set)) return maps->material;
-  return std::get<TabulatedMaterial>(set);
-}
-
-MapFrame frame_of(const MaterialSet& set) {
-  if (const auto* maps = std::get_if<TextureMaterial>(&set)) return maps->frame();
-  const auto& table = std::get<TabulatedMaterial>(set);
-  return {table.name, table.width, table.height};
+  return std::visit([](const auto& material) { return MaterialRef(material); }, set);
 }
 
 void require_copy_alone(const WarpCommand& command) {
@@ -212,10 +207,9 @@ void warp_tables(const WarpCommand& command) {
   const MaterialRef from = ref_of(source), to = ref_of(target);
   const AppearanceDistance usual =
       from.is_profiles() ? AppearanceDistance::kPlain : AppearanceDistance::kRelative;
-  const AppearanceMatch match = match_appearances(
-      from, to, strokes_of(command, frame_of(source), frame_of(target)), distance_of(command, usual));
-  const auto files =
-      write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source), to, frame_of(target));
+  const AppearanceMatch match =
+      match_appearances(from, to, strokes_of(command, from, to), distance_of(command, usual));
+  const auto files = write_copied_set(command.copy, copy_exactly(match, from, to), from, to);
   if (!command.json) return print_words(command.copy, match.diagnostics);
   Json json = {{"diagnostics", report_of(match.diagnostics)}, {"warnings", warnings_of(match.diagnostics)}};
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());

@@ -123,8 +123,7 @@ CandidateRecord record_of(const std::string& name, const RowSplit& split, const 
   record.name = name;
   record.number_count = number_count(fit.mapping);
   const std::vector<TableRow>& rows = judging_rows(split);
-  const Residuals residuals =
-      residuals_of(rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
+  const Residuals residuals = residuals_of(rows, fit);
   std::vector<double> alphas, speculars;
   for (const TableRow& row : rows) {
     alphas.push_back(row.alpha2);
@@ -206,11 +205,11 @@ std::size_t choose(std::vector<Candidate>& candidates) {
 }  // namespace
 
 void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit) {
-  const TexelMap map = [fit](double alpha, double specular) { return evaluate_fit(*fit, alpha, specular); };
-  Residuals residuals = residuals_of(judging_rows(split), map);
+  Residuals residuals = residuals_of(judging_rows(split), *fit);
   fit->alpha_error = error_figures(std::move(residuals.alpha));
   fit->specular_error = error_figures(std::move(residuals.specular));
   if (pictures == nullptr) return;
+  const TexelMap map = [fit](double alpha, double specular) { return evaluate_fit(*fit, alpha, specular); };
   const TexelMap copied = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
   fit->pictures = {pictures->judged(map), pictures->judged(copied)};
 }

@@ -63,12 +63,6 @@ std::optional<ImageSimilarity> image_similarity(const Table& table, const std::v
 
 }  // namespace
 
-RowErrors row_errors(const Fit& fit, const std::vector<TableRow>& rows) {
-  Residuals residuals =
-      residuals_of(rows, [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
-  return {error_figures(std::move(residuals.alpha)), error_figures(std::move(residuals.specular))};
-}
-
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
                       const FitProgress& progress) {
   require_models(table);

@@ -21,11 +21,4 @@ namespace remap {
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
                       const FitProgress& progress = {});
 
-// A RowErrors holds absolute errors of `fit` in target alpha and target specular over rows.
-struct RowErrors {
-  ErrorFigures alpha;
-  ErrorFigures specular;
-};
-RowErrors row_errors(const Fit& fit, const std::vector<TableRow>& rows);
-
 }  // namespace remap

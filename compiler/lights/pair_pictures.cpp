@@ -70,46 +70,61 @@ class Half {
   std::map<std::string, std::unique_ptr<LobePictures>> pictures_;
 };
 
-struct Halves {
-  explicit Halves(unsigned jobs)
-      : choosing({sky(), studio()}, {35.0, 65.0}, jobs),
-        judging({overcast(), turned(sky(), 0.4), turned(studio(), 0.3)}, {60.0}, jobs) {}
-  static Environment sky() { return builtin_environments(kMapHeight)[0]; }
-  static Environment overcast() { return builtin_environments(kMapHeight)[1]; }
-  static Environment studio() { return builtin_environments(kMapHeight)[2]; }
+Environment sky() { return builtin_environments(kMapHeight)[0]; }
+Environment overcast() { return builtin_environments(kMapHeight)[1]; }
+Environment studio() { return builtin_environments(kMapHeight)[2]; }
 
-  Half choosing, judging;
-};
+Half& choosing_half(unsigned jobs) {
+  static Half half({sky(), studio()}, {35.0, 65.0}, jobs);
+  return half;
+}
 
-Halves& halves(unsigned jobs) {
-  static Halves both(jobs);
-  return both;
+Half& judging_half(unsigned jobs) {
+  static Half half({overcast(), turned(sky(), 0.4), turned(studio(), 0.3)}, {60.0}, jobs);
+  return half;
 }
 
 using Picture = std::vector<float>;
 
-// A MaterialPictures shows a material of the source under each light. Pictures have display values under
-// environments, and linear values under point lights.
-struct MaterialPictures {
-  MappedTexel source;
-  std::vector<Picture> pictures;
-  std::vector<double> power;  // sums of squares of the linear values
-};
+// Makes the materials of one half. They have every other width, and the speculars of this half.
+template <typename Speculars>
+std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
+                                   const Speculars& speculars) {
+  std::vector<MappedTexel> all;
+  const std::vector<double> widths = Half::widths_of(source);
+  for (std::size_t i = is_choosing ? 0 : 1; i < widths.size(); i += 2)
+    for (const double specular : speculars)
+      if (widths[i] >= kLeastWidth && domain.alpha.contains(widths[i]))
+        all.push_back({widths[i], specular * domain.specular.max});
+  return all;
+}
 
-class Judge {
+}  // namespace
+
+// A Judge compares pictures of target texels with those of the source, under one half of the lights.
+class PairPictures::Judge {
  public:
-  Judge(const StudyLights& lights, const LobePictures& source, const LobePictures& target,
+  // A MaterialPictures shows a material of the source under each light. Pictures have display values under
+  // environments, and linear values under point lights.
+  struct MaterialPictures {
+    MappedTexel source;
+    std::vector<Picture> pictures;
+    std::vector<double> power;  // sums of squares of the linear values
+  };
+
+  Judge(Half& half, const std::string& source_model, const std::string& target_model,
         const std::vector<MappedTexel>& materials)
-      : lights_(lights), target_(target) {
+      : lights_(half.lights()), target_(half.of(target_model)) {
+    const LobePictures& source = half.of(source_model);
     for (const MappedTexel& material : materials) {
       MaterialPictures& shown = shown_.emplace_back();
       shown.source = material;
-      for (std::size_t light = 0; light < lights.count(); ++light) {
+      for (std::size_t light = 0; light < lights_.count(); ++light) {
         Picture picture = picture_of(source, light, material);
         double power = 0.0;
         for (const float value : picture) power += static_cast<double>(value) * static_cast<double>(value);
         shown.power.push_back(power);
-        if (light < lights.environment_count()) picture = display_values(picture);
+        if (light < lights_.environment_count()) picture = display_values(picture);
         shown.pictures.push_back(std::move(picture));
       }
     }
@@ -160,6 +175,21 @@ class Judge {
     return error;
   }
 
+  // Returns mean errors over the materials, for each kind of light.
+  PictureErrors mean_errors(const TexelMap& map) const {
+    PictureErrors errors;
+    for (const MaterialPictures& shown : shown_) {
+      const MappedTexel target = map(shown.source.alpha, shown.source.specular);
+      for (std::size_t light = 0; light < lights(); ++light)
+        (light < environments() ? errors.rmse : errors.relative) +=
+            error_under(light, shown, target, 0.0, nullptr);
+    }
+    const auto count = static_cast<double>(shown_.size());
+    errors.rmse /= count * static_cast<double>(environments());
+    errors.relative /= count * static_cast<double>(lights() - environments());
+    return errors;
+  }
+
   std::size_t environments() const { return lights_.environment_count(); }
   std::size_t lights() const { return lights_.count(); }
 
@@ -175,75 +205,39 @@ class Judge {
   std::vector<MaterialPictures> shown_;
 };
 
-// Makes the materials of one half. They have every other width, and the speculars of this half.
-template <typename Speculars>
-std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
-                                   const Speculars& speculars) {
-  std::vector<MappedTexel> all;
-  const std::vector<double> widths = Half::widths_of(source);
-  for (std::size_t i = is_choosing ? 0 : 1; i < widths.size(); i += 2)
-    for (const double specular : speculars)
-      if (widths[i] >= kLeastWidth && domain.alpha.contains(widths[i]))
-        all.push_back({widths[i], specular * domain.specular.max});
-  return all;
+PairPictures::PairPictures(const std::string& source, const std::string& target, const Domain& domain,
+                           unsigned jobs)
+    : choosing_(std::make_unique<Judge>(choosing_half(jobs), source, target,
+                                        materials(source, domain, true, kChoosingSpeculars))),
+      judging_(std::make_unique<Judge>(judging_half(jobs), source, target,
+                                       materials(source, domain, false, kJudgingSpeculars))) {
+  for (const Judge::MaterialPictures& shown : choosing_->shown()) sources_.push_back(shown.source);
 }
 
-class BuiltinPair final : public PairPictures {
- public:
-  BuiltinPair(const std::string& source, const std::string& target, const Domain& domain, unsigned jobs)
-      : choosing_(halves(jobs).choosing.lights(), halves(jobs).choosing.of(source),
-                  halves(jobs).choosing.of(target), materials(source, domain, true, kChoosingSpeculars)),
-        judging_(halves(jobs).judging.lights(), halves(jobs).judging.of(source),
-                 halves(jobs).judging.of(target), materials(source, domain, false, kJudgingSpeculars)) {
-    for (const MaterialPictures& shown : choosing_.shown()) sources_.push_back(shown.source);
-  }
+PairPictures::~PairPictures() = default;
 
-  const std::vector<MappedTexel>& sources() const override { return sources_; }
-
-  TexelErrors choosing_errors(const PictureErrors& unit_errors) const override {
-    return [this, unit_errors](const std::vector<MappedTexel>& targets) {
-      std::vector<TexelError> errors(targets.size());
-      const auto environments = static_cast<double>(choosing_.environments());
-      const double points = static_cast<double>(choosing_.lights()) - environments;
-      for (std::size_t m = 0; m < targets.size(); ++m)
-        for (std::size_t light = 0; light < choosing_.lights(); ++light) {
-          const double unit = light < choosing_.environments()
-                                  ? 1.0 / (unit_errors.rmse * environments)
-                                  : kPointWeight / (unit_errors.relative * points);
-          choosing_.error_under(light, choosing_.shown()[m], targets[m], unit, &errors[m]);
-        }
-      return errors;
-    };
-  }
-
-  PictureErrors chosen(const TexelMap& map) const override { return means(choosing_, map); }
-  PictureErrors judged(const TexelMap& map) const override { return means(judging_, map); }
-
- private:
-  static PictureErrors means(const Judge& judge, const TexelMap& map) {
-    PictureErrors errors;
-    for (const MaterialPictures& shown : judge.shown()) {
-      const MappedTexel target = map(shown.source.alpha, shown.source.specular);
-      for (std::size_t light = 0; light < judge.lights(); ++light)
-        (light < judge.environments() ? errors.rmse : errors.relative) +=
-            judge.error_under(light, shown, target, 0.0, nullptr);
-    }
-    const auto count = static_cast<double>(judge.shown().size());
-    errors.rmse /= count * static_cast<double>(judge.environments());
-    errors.relative /= count * static_cast<double>(judge.lights() - judge.environments());
+TexelErrors PairPictures::choosing_errors(const PictureErrors& unit_errors) const {
+  return [&judge = *choosing_, unit_errors](const std::vector<MappedTexel>& targets) {
+    std::vector<TexelError> errors(targets.size());
+    const auto environments = static_cast<double>(judge.environments());
+    const double points = static_cast<double>(judge.lights()) - environments;
+    for (std::size_t m = 0; m < targets.size(); ++m)
+      for (std::size_t light = 0; light < judge.lights(); ++light) {
+        const double unit = light < judge.environments() ? 1.0 / (unit_errors.rmse * environments)
+                                                         : kPointWeight / (unit_errors.relative * points);
+        judge.error_under(light, judge.shown()[m], targets[m], unit, &errors[m]);
+      }
     return errors;
-  }
+  };
+}
 
-  Judge choosing_, judging_;
-  std::vector<MappedTexel> sources_;
-};
-
-}  // namespace
+PictureErrors PairPictures::chosen(const TexelMap& map) const { return choosing_->mean_errors(map); }
+PictureErrors PairPictures::judged(const TexelMap& map) const { return judging_->mean_errors(map); }
 
 std::unique_ptr<PairPictures> pair_pictures(const std::string& source, const std::string& target,
                                             const Domain& domain, unsigned jobs) {
   if (!is_linear_lobe(source) || !is_linear_lobe(target)) return nullptr;
-  return std::make_unique<BuiltinPair>(source, target, domain, jobs);
+  return std::make_unique<PairPictures>(source, target, domain, jobs);
 }
 
 }  // namespace remap

@@ -17,21 +17,29 @@ using TexelMap = std::function<MappedTexel(double alpha, double specular)>;
 
 class PairPictures {
  public:
-  virtual ~PairPictures() = default;
+  // Both models are built-in ones whose lobes are linear (is_linear_lobe()). Takes seconds. The pictures of a
+  // model are kept for other pairs. Thread-safe.
+  PairPictures(const std::string& source, const std::string& target, const Domain& domain, unsigned jobs);
+  ~PairPictures();
+
   // Returns the materials whose pictures choose the numbers of a converter.
-  virtual const std::vector<MappedTexel>& sources() const = 0;
+  const std::vector<MappedTexel>& sources() const { return sources_; }
   // Returns the errors of pictures of target texels. These are the RMSE of display values under environments,
   // and the error relative to the source under point lights. Each error is divided by its value in `unit`, so
   // that one per cent has the same weight in both.
-  virtual TexelErrors choosing_errors(const PictureErrors& unit) const = 0;
+  TexelErrors choosing_errors(const PictureErrors& unit) const;
   // Returns mean errors for the lights and materials that choose.
-  virtual PictureErrors chosen(const TexelMap& map) const = 0;
+  PictureErrors chosen(const TexelMap& map) const;
   // Returns mean errors for the lights and materials that judge.
-  virtual PictureErrors judged(const TexelMap& map) const = 0;
+  PictureErrors judged(const TexelMap& map) const;
+
+ private:
+  class Judge;
+  std::unique_ptr<Judge> choosing_, judging_;
+  std::vector<MappedTexel> sources_;
 };
 
-// Returns null if the built-in renderer lacks one of the models. Takes seconds. The pictures of a model are
-// kept for other pairs. Thread-safe.
+// Returns null if the built-in renderer lacks one of the models.
 std::unique_ptr<PairPictures> pair_pictures(const std::string& source, const std::string& target,
                                             const Domain& domain, unsigned jobs);
 

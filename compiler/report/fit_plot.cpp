@@ -8,7 +8,6 @@
 
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "fit/fit_table.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
@@ -173,8 +172,8 @@ class Plot {
     out_ << "set logscale y\nset yrange [*:1e-6<*]\nset format y '10^{%T}'\n"
          << "set key at graph 0.5,-0.19 center top Left reverse maxcols 1\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f) {
-      const RowErrors errors = row_errors(fits_[f], rows_);
-      const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
+      const Residuals residuals = residuals_of(rows_, fits_[f]);
+      const double rms = error_figures(column == 2 ? residuals.alpha : residuals.specular).rms;
       out_ << (f == 0 ? "" : ", ") << "$residuals" << f << " using 1:" << column
            << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kPlotColors[f] << "' title "
            << gnuplot_text(fit_label(fits_[f]) + ", rms " + error_text(rms));

@@ -14,6 +14,7 @@
 #include "look/lit_sphere.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/parameter_roles.hpp"
+#include "measure/picture_taker.hpp"
 #include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
@@ -24,24 +25,19 @@ namespace {
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
-// An End is one side of the fit, ready to be rendered.
-struct End {
-  ModelDescription model;
-  SpecularResponse response;  // converts between the fit's specular and the model's own parameter
-  double exposure = 1.0;
-};
-
 std::string comment(const Fit& fit, const std::string& key) {
   const auto found = fit.table.comments.find(key);
   return found == fit.table.comments.end() ? "" : found->second;
 }
 
-End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
-             double exposure, double diffuse) {
+// Returns one side of the fit, ready to be rendered. Its response converts between the fit's specular and the
+// model's own parameter.
+ProbedModel make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
+                     double exposure, double diffuse) {
   const ParameterRoles roles =
       recorded_roles(comment(fit, role + "_roughness_parameter"), comment(fit, role + "_specular"),
                      comment(fit, role + "_fixed"));
-  End end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
+  ProbedModel end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
   if (diffuse > 0.0 && !end.model.has(ParameterRole::kDiffuse))
     throw Error(ErrorKind::kUsage,
                 "--diffuse: " + side.model + " has no diffuse reflectance (leave the option out)");
@@ -50,7 +46,8 @@ End make_end(const Renderer& renderer, const Fit& fit, const std::string& role, 
   return end;
 }
 
-Material material_of(const End& end, double alpha, const std::vector<double>& speculars, double diffuse) {
+Material material_of(const ProbedModel& end, double alpha, const std::vector<double>& speculars,
+                     double diffuse) {
   const ParameterDescription& specular = end.model.parameter(ParameterRole::kSpecular);
   const double clamped = std::clamp(alpha, end.model.alpha.min, end.model.alpha.max);
   Material material = grey_material(end.model, clamped, specular.range.min, diffuse);
@@ -156,7 +153,7 @@ class LampStudio {
   }
 
  private:
-  CoveredPicture photograph(const End& end, double alpha, const std::vector<double>& specular,
+  CoveredPicture photograph(const ProbedModel& end, double alpha, const std::vector<double>& specular,
                             Shape shape) const {
     const Image image = renderer_.render(material_of(end, alpha, specular, options_.diffuse),
                                          {options_.resolution, options_.samples_per_axis, light_, 0, shape});
@@ -177,7 +174,7 @@ class LampStudio {
   const Renderer& renderer_;
   const PreviewOptions& options_;
   Light light_;
-  End source_, target_;
+  ProbedModel source_, target_;
 };
 
 // An EnvironmentStudio renders rows under an environment.

@@ -104,61 +104,39 @@ Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& b
   return picture;
 }
 
-std::vector<WarpTexel> texels_at(const TextureMaterial& material, const std::vector<std::uint32_t>& indices,
+std::vector<WarpTexel> texels_at(const WarpMaterial& material, const std::vector<std::uint32_t>& indices,
                                  std::size_t most) {
   std::vector<WarpTexel> texels;
   const std::size_t count = std::min(indices.size(), most);
   for (std::size_t i = 0; i < count; ++i)
-    texels.push_back(material.material.texels[indices[i * indices.size() / count]]);
+    texels.push_back(material.texels[indices[i * indices.size() / count]]);
   return texels;
 }
 
-// A Cloud holds the points of a material in its space.
-struct Cloud {
-  PlottedPoints texels;
-  std::vector<PlottedPoints> strokes;
-};
-
-Cloud cloud_of(const TextureMaterial& material, const AppearanceCoordinates& coordinates,
-               const std::vector<StrokePair>& strokes, StrokeSide side) {
-  Cloud cloud;
+// Returns the points of a material in its space: its texels, and then each of its strokes.
+std::vector<PlottedPoints> layers_of(const WarpMaterial& material, const AppearanceCoordinates& coordinates,
+                                     const std::vector<StrokePair>& strokes, StrokeSide side) {
   const std::vector<WarpTexel> texels =
-      texels_at(material, sample_texels(material.material, kMostPoints), kMostPoints);
-  cloud.texels.positions = positions_of(coordinates, texels);
-  cloud.texels.radius = 0.8;
-  for (const WarpTexel& texel : texels)
-    cloud.texels.colors.push_back(shaded_color(texel, material.material.model));
+      texels_at(material, sample_texels(material, kMostPoints), kMostPoints);
+  std::vector<PlottedPoints> layers{{positions_of(coordinates, texels), {}, 0.8}};
+  for (const WarpTexel& texel : texels) layers.front().colors.push_back(shaded_color(texel, material.model));
   for (std::size_t k = 0; k < strokes.size(); ++k)
-    cloud.strokes.push_back(
-        {positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
-         {stroke_color(k)},
-         1.8});
-  return cloud;
-}
-
-Cloud moved(const Cloud& cloud, const SmoothWarp& warp) {
-  Cloud images = cloud;
-  images.texels.positions = images_of(warp, cloud.texels.positions);
-  for (PlottedPoints& stroke : images.strokes) stroke.positions = images_of(warp, stroke.positions);
-  return images;
-}
-
-void append(const Cloud& cloud, std::vector<PlottedPoints>& layers) {
-  layers.push_back(cloud.texels);
-  layers.insert(layers.end(), cloud.strokes.begin(), cloud.strokes.end());
-}
-
-std::vector<PlottedPoints> layers_of(const Cloud& cloud) {
-  std::vector<PlottedPoints> layers;
-  append(cloud, layers);
+    layers.push_back({positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
+                      {stroke_color(k)},
+                      1.8});
   return layers;
 }
 
-// Draws the source's points over the template's.
-std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
-  std::vector<PlottedPoints> layers{{below.texels.positions, {kGrey}, 1.6}};
-  append(cloud, layers);
+std::vector<PlottedPoints> moved(std::vector<PlottedPoints> layers, const SmoothWarp& warp) {
+  for (PlottedPoints& layer : layers) layer.positions = images_of(warp, layer.positions);
   return layers;
+}
+
+// Draws the source's points over the template's texels.
+std::vector<PlottedPoints> over_grey(const PlottedPoints& texels, const std::vector<PlottedPoints>& layers) {
+  std::vector<PlottedPoints> all{{texels.positions, {kGrey}, 1.6}};
+  all.insert(all.end(), layers.begin(), layers.end());
+  return all;
 }
 
 std::string escaped(const std::string& text) {
@@ -211,23 +189,23 @@ constexpr const char* kHead =
     ".key { display: inline-block; width: 0.9em; height: 0.9em; margin-left: 0.7em }\n"
     "</style>\n";
 
-std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<title>" + escaped(words.title) +
-                     "</title>\n" + kHead + "</head>\n<body>\n<h1>" + escaped(words.title) + "</h1>\n";
-  for (const std::string& warning : words.warnings)
+std::string report_html(const WarpReport& report) {
+  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<title>" + escaped(report.title) +
+                     "</title>\n" + kHead + "</head>\n<body>\n<h1>" + escaped(report.title) + "</h1>\n";
+  for (const std::string& warning : report.warnings)
     html += "<p class=\"warning\">" + escaped(warning) + "</p>\n";
-  html += "<div class=\"row\">\n" + figure_html(pictures.source, "Source") +
-          figure_html(pictures.target, "Template") +
-          figure_html(pictures.result, "Result: pattern of the source, reflectance of the template") +
-          "</div>\n<h2>Strokes</h2>\n" + stroke_key(words.stroke_count) + "<div class=\"row\">\n" +
-          figure_html(pictures.source_strokes, "Strokes on the source") +
-          figure_html(pictures.target_strokes, "Strokes on the template") +
+  html += "<div class=\"row\">\n" + figure_html(report.source, "Source") +
+          figure_html(report.target, "Template") +
+          figure_html(report.result, "Result: pattern of the source, reflectance of the template") +
+          "</div>\n<h2>Strokes</h2>\n" + stroke_key(report.stroke_count) + "<div class=\"row\">\n" +
+          figure_html(report.source_strokes, "Strokes on the source") +
+          figure_html(report.target_strokes, "Strokes on the template") +
           "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates. Each point is a texel in its "
           "color; texels of strokes have the colors of the strokes.</p>\n<div class=\"row small\">\n" +
-          figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
-          figure_html(pictures.before, "Before the warp: source over template (grey)") +
-          figure_html(pictures.after, "After the warp") + "</div>\n<h2>Figures</h2>\n<table>\n";
-  for (const auto& [name, value] : words.facts)
+          figure_html(report.source_space, "Source") + figure_html(report.target_space, "Template") +
+          figure_html(report.before, "Before the warp: source over template (grey)") +
+          figure_html(report.after, "After the warp") + "</div>\n<h2>Figures</h2>\n<table>\n";
+  for (const auto& [name, value] : report.facts)
     html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return html +
          "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker light "
@@ -238,31 +216,34 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
 
 }  // namespace
 
-WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
-                           const std::vector<StrokePair>& strokes, const WarpFit& fit) {
+WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
+                       const std::vector<StrokePair>& strokes, const WarpFit& fit) {
   const PictureGrid from = picture_grid(source.width, source.height, kSide);
   const PictureGrid to = picture_grid(target.width, target.height, kSide);
-  std::vector<WarpTexel> samples = samples_of(from, source.material.texels);
-  WarpPictures pictures;
-  pictures.source = shaded_map(from, samples, source.material.model);
-  pictures.target = shaded_map(to, samples_of(to, target.material.texels), target.material.model);
+  std::vector<WarpTexel> samples = samples_of(from, source.texels);
+  WarpReport report;
+  report.stroke_count = strokes.size();
+  report.source = shaded_map(from, samples, source.model);
+  report.target = shaded_map(to, samples_of(to, target.texels), target.model);
   for (WarpTexel& sample : samples) sample = evaluate_warp(fit.compiled, sample);
-  pictures.result = shaded_map(from, samples, target.material.model);
-  pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
-  pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
+  report.result = shaded_map(from, samples, target.model);
+  report.source_strokes = with_strokes(report.source, from, strokes, &StrokePair::source);
+  report.target_strokes = with_strokes(report.target, to, strokes, &StrokePair::target);
 
-  const Cloud own = cloud_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
-  const Cloud goal = cloud_of(target, fit.target_coordinates(), strokes, &StrokePair::target);
-  const std::vector<PlottedPoints> before = layers_over(goal, own),
-                                   after = layers_over(goal, moved(own, fit.warp));
+  const std::vector<PlottedPoints> own =
+      layers_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
+  const std::vector<PlottedPoints> goal =
+      layers_of(target, fit.target_coordinates(), strokes, &StrokePair::target);
+  const std::vector<PlottedPoints> before = over_grey(goal.front(), own),
+                                   after = over_grey(goal.front(), moved(own, fit.warp));
   std::vector<PlottedPoints> all = before;
   all.insert(all.end(), after.begin(), after.end());
   const PlotBox box = box_around(all);
-  pictures.source_space = appearance_plot(layers_of(own), box, kSide);
-  pictures.target_space = appearance_plot(layers_of(goal), box, kSide);
-  pictures.before = appearance_plot(before, box, kSide);
-  pictures.after = appearance_plot(after, box, kSide);
-  return pictures;
+  report.source_space = appearance_plot(own, box, kSide);
+  report.target_space = appearance_plot(goal, box, kSide);
+  report.before = appearance_plot(before, box, kSide);
+  report.after = appearance_plot(after, box, kSide);
+  return report;
 }
 
 void require_report_path(const std::filesystem::path& path) {
@@ -270,10 +251,9 @@ void require_report_path(const std::filesystem::path& path) {
     throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
 }
 
-void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
-                       const WarpWords& words) {
+void write_warp_report(const std::filesystem::path& path, const WarpReport& report) {
   require_report_path(path);
-  write_file(path, report_html(pictures, words));
+  write_file(path, report_html(report));
 }
 
 }  // namespace remap

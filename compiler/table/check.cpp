@@ -41,37 +41,32 @@ std::string sample_text(const TableRow& row) {
   return "alpha1 " + number_text(row.alpha1) + ", specular1 " + number_text(row.specular1);
 }
 
-// A Findings collects the findings of a check.
-class Findings {
- public:
-  void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
-    all_.push_back({severity, kind, line, message});
-  }
-  // Adds the sample of line `line` that line `first` has already. `same` is true if the target values are
-  // equal, too.
-  void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
-    const std::string repeat = sample + " also appears in line " + std::to_string(first);
-    if (same)
-      add(Severity::kWarning, "duplicate", line, repeat + "; it counts twice in a fit");
-    else
-      add(Severity::kError, "contradiction", line, repeat + " with other target values");
-  }
-  void add_light(const Comments& comments, bool accept_light) {
-    LightMatch match = light_match(comments);
-    match.accepted = match.accepted || accept_light;
-    if (const std::string remark = light_remark(match); !remark.empty())
-      add(is_wrong_light(match) ? Severity::kError : Severity::kWarning, "light", 0, remark);
-  }
-  std::vector<Finding> sorted() {
-    std::stable_sort(all_.begin(), all_.end(), [](const Finding& a, const Finding& b) {
-      return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
-    });
-    return std::move(all_);
-  }
+using Findings = std::vector<Finding>;
 
- private:
-  std::vector<Finding> all_;
-};
+// Adds the sample of line `line` that line `first` has already. `same` is true if the target values are
+// equal, too.
+void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first,
+                Findings& findings) {
+  const std::string repeat = sample + " also appears in line " + std::to_string(first);
+  if (same)
+    findings.push_back({Severity::kWarning, "duplicate", line, repeat + "; it counts twice in a fit"});
+  else
+    findings.push_back({Severity::kError, "contradiction", line, repeat + " with other target values"});
+}
+
+void add_light(const Comments& comments, bool accept_light, Findings& findings) {
+  LightMatch match = light_match(comments);
+  match.accepted = match.accepted || accept_light;
+  if (const std::string remark = light_remark(match); !remark.empty())
+    findings.push_back({is_wrong_light(match) ? Severity::kError : Severity::kWarning, "light", 0, remark});
+}
+
+Findings sorted(Findings findings) {
+  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
+  });
+  return findings;
+}
 
 // A RowsByAlpha holds the usable rows of each width, by rising specular.
 using RowsByAlpha = std::map<double, Rows>;
@@ -88,10 +83,10 @@ void check_range(const TableRow& row, const std::string& name, double value, boo
                  Findings& findings) {
   const std::string found = name + " is " + number_text(value);
   if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero))
-    findings.add(Severity::kError, "range", row.line,
-                 found + " (must be " + (may_be_zero ? "0 or more" : "above 0") + ")");
+    findings.push_back({Severity::kError, "range", row.line,
+                        found + " (must be " + (may_be_zero ? "0 or more" : "above 0") + ")"});
   else if (value > 1.0)
-    findings.add(Severity::kWarning, "range", row.line, found + "; physical values end at 1");
+    findings.push_back({Severity::kWarning, "range", row.line, found + "; physical values end at 1"});
 }
 
 void check_ranges(const Table& table, Findings& findings) {
@@ -109,10 +104,10 @@ void check_row_count(const RowsByAlpha& by_alpha, Findings& findings) {
   std::size_t rows = 0;
   for (const auto& [alpha, group] : by_alpha) rows += group.size();
   if (by_alpha.size() < kFewestAlphas || rows < kFewestGridRows)
-    findings.add(Severity::kError, "rows", 0,
-                 counted(rows, "usable row") + " and " + counted(by_alpha.size(), "value") +
-                     " of alpha1 (a fit needs at least " + std::to_string(kFewestGridRows) + " rows and " +
-                     std::to_string(kFewestAlphas) + " values)");
+    findings.push_back({Severity::kError, "rows", 0,
+                        counted(rows, "usable row") + " and " + counted(by_alpha.size(), "value") +
+                            " of alpha1 (a fit needs at least " + std::to_string(kFewestGridRows) +
+                            " rows and " + std::to_string(kFewestAlphas) + " values)"});
 }
 
 void check_repeats(const RowsByAlpha& by_alpha, Findings& findings) {
@@ -123,7 +118,7 @@ void check_repeats(const RowsByAlpha& by_alpha, Findings& findings) {
       const bool same =
           std::fabs(first.alpha2 - second.alpha2) <= kSameValue &&
           std::fabs(first.specular2 - second.specular2) <= kSameValue * std::fabs(first.specular2);
-      findings.add_repeat(same, sample_text(second), second.line, first.line);
+      add_repeat(same, sample_text(second), second.line, first.line, findings);
     }
   }
 }
@@ -137,9 +132,10 @@ void check_gaps(const RowsByAlpha& by_alpha, Findings& findings) {
   for (auto it = by_alpha.begin(); std::next(it) != by_alpha.end(); ++it) {
     const double step = std::next(it)->first - it->first;
     if (step > kGapFactor * usual)
-      findings.add(Severity::kWarning, "gap", std::next(it)->second.front()->line,
-                   "no alpha1 between " + number_text(it->first) + " and " +
-                       number_text(std::next(it)->first) + "; the usual step is " + number_text(usual));
+      findings.push_back({Severity::kWarning, "gap", std::next(it)->second.front()->line,
+                          "no alpha1 between " + number_text(it->first) + " and " +
+                              number_text(std::next(it)->first) + "; the usual step is " +
+                              number_text(usual)});
   }
 }
 
@@ -152,11 +148,12 @@ void check_monotone(const RowsByAlpha& by_alpha, Findings& findings) {
     for (const TableRow* row : rows) sum += row->alpha2;
     const double mean = sum / static_cast<double>(rows.size());
     if (mean <= previous)
-      findings.add(Severity::kError, "non-monotone", rows.front()->line,
-                   (mean < previous ? "alpha2 falls from " + number_text(previous)
-                                    : "alpha2 stays at " + number_text(previous)) +
-                       " between alpha1 " + number_text(previous_alpha) + " and " + number_text(alpha) +
-                       (mean < previous ? ", to " + number_text(mean) : "") + ", but must rise");
+      findings.push_back({Severity::kError, "non-monotone", rows.front()->line,
+                          (mean < previous ? "alpha2 falls from " + number_text(previous)
+                                           : "alpha2 stays at " + number_text(previous)) +
+                              " between alpha1 " + number_text(previous_alpha) + " and " +
+                              number_text(alpha) + (mean < previous ? ", to " + number_text(mean) : "") +
+                              ", but must rise"});
     previous = mean;
     previous_alpha = alpha;
   }
@@ -175,10 +172,10 @@ void check_jumps(const RowsByAlpha& by_alpha, Findings& findings) {
       const bool jump = std::fabs(alpha_step) > kJumpAlpha * alpha ||
                         std::fabs(specular_step) > kJumpSlope * std::max(std::fabs(expected), 0.01);
       if (jump)
-        findings.add(Severity::kWarning, "jump", b.line,
-                     sample_text(b) + ": alpha2 differs from its neighbours by " +
-                         number_text(std::round(alpha_step * 1e5) / 1e5) + ", specular2 by " +
-                         number_text(std::round(specular_step * 1e5) / 1e5));
+        findings.push_back({Severity::kWarning, "jump", b.line,
+                            sample_text(b) + ": alpha2 differs from its neighbours by " +
+                                number_text(std::round(alpha_step * 1e5) / 1e5) + ", specular2 by " +
+                                number_text(std::round(specular_step * 1e5) / 1e5)});
     }
   }
 }
@@ -191,7 +188,7 @@ void check_saturation(const Table& table, const RowsByAlpha& by_alpha, Findings&
     const std::string message = std::to_string(where.size()) + " of " + std::to_string(table.rows.size()) +
                                 " rows are " + std::string(status_name(status)) +
                                 " and are not fitted; this is the first";
-    findings.add(Severity::kNote, "saturation", where.front(), message);
+    findings.push_back({Severity::kNote, "saturation", where.front(), message});
   }
   for (const auto& [alpha, rows] : by_alpha) {
     std::size_t run = 1;
@@ -203,9 +200,9 @@ void check_saturation(const Table& table, const RowsByAlpha& by_alpha, Findings&
         continue;
       }
       if (run >= 3)
-        findings.add(Severity::kWarning, "saturation", rows[i - run]->line,
-                     "specular2 stays at " + number_text(rows[i - 1]->specular2) + " over " +
-                         std::to_string(run) + " rows of alpha1 " + number_text(alpha));
+        findings.push_back({Severity::kWarning, "saturation", rows[i - run]->line,
+                            "specular2 stays at " + number_text(rows[i - 1]->specular2) + " over " +
+                                std::to_string(run) + " rows of alpha1 " + number_text(alpha)});
       run = 1;
     }
   }
@@ -216,8 +213,8 @@ void check_values(const MaterialTable& table, Findings& findings) {
                          const std::vector<double>& values) {
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (!std::isfinite(values[i]))
-        findings.add(Severity::kError, "range", row.line,
-                     columns[i] + " is " + number_text(values[i]) + " (must be finite)");
+        findings.push_back({Severity::kError, "range", row.line,
+                            columns[i] + " is " + number_text(values[i]) + " (must be finite)"});
   };
   for (const NamedRow& row : table.rows) {
     check(row, table.source_columns, row.source);
@@ -230,13 +227,14 @@ void check_row_count(const MaterialTable& table, Findings& findings) {
       static_cast<std::size_t>(std::ranges::count(table.rows, RowStatus::kOk, &NamedRow::status));
   const std::size_t fewest = kFewestRowsAColumn * table.source_columns.size();
   if (usable < fewest)
-    findings.add(Severity::kError, "rows", 0,
-                 std::to_string(usable) + " usable rows for " + std::to_string(table.source_columns.size()) +
-                     " source columns (at least " + std::to_string(fewest) + " are needed)");
+    findings.push_back({Severity::kError, "rows", 0,
+                        std::to_string(usable) + " usable rows for " +
+                            std::to_string(table.source_columns.size()) + " source columns (at least " +
+                            std::to_string(fewest) + " are needed)"});
   if (usable != table.rows.size())
-    findings.add(Severity::kNote, "saturation", 0,
-                 std::to_string(table.rows.size() - usable) + " of " + std::to_string(table.rows.size()) +
-                     " rows are not ok and are not fitted");
+    findings.push_back({Severity::kNote, "saturation", 0,
+                        std::to_string(table.rows.size() - usable) + " of " +
+                            std::to_string(table.rows.size()) + " rows are not ok and are not fitted"});
 }
 
 void check_columns(const MaterialTable& table, Findings& findings) {
@@ -244,9 +242,9 @@ void check_columns(const MaterialTable& table, Findings& findings) {
     const double first = table.rows.front().source[i];
     if (std::all_of(table.rows.begin(), table.rows.end(),
                     [&](const NamedRow& row) { return row.source[i] == first; }))
-      findings.add(Severity::kWarning, "gap", 0,
-                   table.source_columns[i] + " is " + number_text(first) +
-                       " in every row; a fit cannot learn its influence");
+      findings.push_back({Severity::kWarning, "gap", 0,
+                          table.source_columns[i] + " is " + number_text(first) +
+                              " in every row; a fit cannot learn its influence"});
   }
 }
 
@@ -255,7 +253,7 @@ void check_repeats(const MaterialTable& table, Findings& findings) {
   for (const NamedRow& row : table.rows) {
     const auto [found, is_new] = known.emplace(row.source, &row);
     if (is_new) continue;
-    findings.add_repeat(found->second->target == row.target, "the sample", row.line, found->second->line);
+    add_repeat(found->second->target == row.target, "the sample", row.line, found->second->line, findings);
   }
 }
 
@@ -275,8 +273,8 @@ std::vector<Finding> check_table(const Table& table, bool accept_light) {
   check_monotone(by_alpha, findings);
   check_jumps(by_alpha, findings);
   check_saturation(table, by_alpha, findings);
-  findings.add_light(table.comments, accept_light);
-  return findings.sorted();
+  add_light(table.comments, accept_light, findings);
+  return sorted(std::move(findings));
 }
 
 std::vector<Finding> check_table(const MaterialTable& table, bool accept_light) {
@@ -285,8 +283,8 @@ std::vector<Finding> check_table(const MaterialTable& table, bool accept_light) 
   check_row_count(table, findings);
   check_columns(table, findings);
   check_repeats(table, findings);
-  findings.add_light(table.comments, accept_light);
-  return findings.sorted();
+  add_light(table.comments, accept_light, findings);
+  return sorted(std::move(findings));
 }
 
 std::string_view severity_name(Severity severity) {

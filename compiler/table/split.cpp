@@ -74,6 +74,11 @@ std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows) {
   return inside;
 }
 
+Residuals residuals_of(const std::vector<TableRow>& rows, const Fit& fit) {
+  return residuals_of(rows,
+                      [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
+}
+
 Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping) {
   return residuals_of(
       rows, [&](double alpha, double specular) { return evaluate_mapping(mapping, alpha, specular); });

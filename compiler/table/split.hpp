@@ -33,11 +33,12 @@ RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed
 // Returns the rows whose target is at no limit.
 std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows);
 
-// A Residuals holds errors of target alpha and target specular, one per row. `map` gives the target's alpha
-// and specular for the source's.
+// A Residuals holds errors of target alpha and target specular, one per row. A fit, or `map`, gives the
+// target's alpha and specular for the source's.
 struct Residuals {
   std::vector<double> alpha, specular;
 };
+Residuals residuals_of(const std::vector<TableRow>& rows, const Fit& fit);
 Residuals residuals_of(const std::vector<TableRow>& rows,
                        const std::function<MappedTexel(double alpha, double specular)>& map);
 Residuals residuals_of(const std::vector<TableRow>& rows, const MappingKind& mapping);

@@ -18,13 +18,15 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 class CopyWriter {
  public:
-  CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MapFrame& size)
-      : folder_(folder), texels_(texels), size_(size) {}
+  CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MaterialRef& source)
+      : folder_(folder), texels_(texels), source_(source) {}
 
   template <typename Value>
   void write(const char* name, const std::vector<std::string>& channels, const Value& value) {
-    Image image{
-        static_cast<int>(size_.width), static_cast<int>(size_.height), static_cast<int>(channels.size()), {}};
+    Image image{static_cast<int>(source_.width()),
+                static_cast<int>(source_.height()),
+                static_cast<int>(channels.size()),
+                {}};
     image.values.reserve(texels_.size() * channels.size());
     for (const std::uint32_t texel : texels_)
       for (std::size_t c = 0; c < channels.size(); ++c)
@@ -44,7 +46,7 @@ class CopyWriter {
  private:
   const fs::path& folder_;
   const std::vector<std::uint32_t>& texels_;
-  MapFrame size_;
+  MaterialRef source_;
 };
 
 void write_parameters(CopyWriter& writer, const WarpMaterial& material) {
@@ -89,8 +91,7 @@ void write_entries(CopyWriter& writer, const TabulatedMaterial& material) {
 }  // namespace
 
 std::vector<fs::path> write_copied_set(const fs::path& folder, const std::vector<std::uint32_t>& texels,
-                                       const MapFrame& source, const MaterialRef& goal,
-                                       const MapFrame& goal_frame) {
+                                       const MaterialRef& source, const MaterialRef& goal) {
   CopyWriter writer(folder, texels, source);
   if (const WarpMaterial* parametric = goal.parametric())
     write_parameters(writer, *parametric);
@@ -99,7 +100,7 @@ std::vector<fs::path> write_copied_set(const fs::path& folder, const std::vector
   else
     write_entries(writer, *goal.tabulated());
   writer.write("template_texel.exr", {"X", "Y"}, [&](std::uint32_t texel, std::size_t c) {
-    return static_cast<float>(c == 0 ? texel % goal_frame.width : texel / goal_frame.width);
+    return static_cast<float>(c == 0 ? texel % goal.width() : texel / goal.width());
   });
   return std::move(writer.files);
 }

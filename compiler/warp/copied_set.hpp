@@ -24,7 +24,6 @@ inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specu
 // `texels` is the result of copy_exactly(). Returns the files. Throws kOutput.
 std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
                                                     const std::vector<std::uint32_t>& texels,
-                                                    const MapFrame& source, const MaterialRef& goal,
-                                                    const MapFrame& goal_frame);
+                                                    const MaterialRef& source, const MaterialRef& goal);
 
 }  // namespace remap

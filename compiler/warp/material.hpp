@@ -21,7 +21,9 @@ struct WarpMaterial {
   std::string name;  // name for messages
   BrdfModel model;   // model of the specular lobe; GGX with Schlick's Fresnel by default
   std::vector<WarpTexel> texels;
-  bool is_dielectric = false;  // true if reflectance is not linear in specular, as in MapModel
+  bool is_dielectric = false;         // true if reflectance is not linear in specular, as in MapModel
+  std::size_t width = 0, height = 0;  // size of the map that the texels form, row-major; 0 if they form none
+  bool is_albedo = false;             // true if it was read from only a diffuse map
 };
 
 // A TabulatedMaterial has texels that are entries of a table. These are measured BRDFs, or radially symmetric
@@ -47,6 +49,9 @@ class MaterialRef {
   std::size_t texel_count() const noexcept {
     return parametric_ ? parametric_->texels.size() : tabulated_->entries.size();
   }
+  // Return the size of the map that the texels form, row-major from the top.
+  std::size_t width() const noexcept { return parametric_ ? parametric_->width : tabulated_->width; }
+  std::size_t height() const noexcept { return parametric_ ? parametric_->height : tabulated_->height; }
   // Returns true if a texel is used: all of its values are finite, or it is an entry of the table.
   bool takes_part(std::size_t texel) const noexcept;
   // Returns true if reflectance is linear in all parameters except alpha.
@@ -59,12 +64,6 @@ class MaterialRef {
  private:
   const WarpMaterial* parametric_ = nullptr;
   const TabulatedMaterial* tabulated_ = nullptr;
-};
-
-// A MapFrame is the size of the map that the texels of a material form, row-major from the top.
-struct MapFrame {
-  std::string name;  // name of the material, for messages
-  std::size_t width = 0, height = 0;
 };
 
 // Returns at most `limit` used texels. They are evenly spread over the list, with random offsets, so that

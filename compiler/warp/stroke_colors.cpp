@@ -65,8 +65,8 @@ struct Painting {
   std::vector<Color> texels;  // kTransparent if alpha is below 0.5
 };
 
-Painting read_painting(const fs::path& path, const MapFrame& material) {
-  Painting painting{path, material.width, std::vector<Color>(material.width * material.height, 0)};
+Painting read_painting(const fs::path& path, const MaterialRef& material) {
+  Painting painting{path, material.width(), std::vector<Color>(material.width() * material.height(), 0)};
   std::vector<char> is_transparent(painting.texels.size(), 0);
   unsigned colors = 0;
   read_stroke_image(path, material, [&](const std::vector<float>& values, bool is_alpha) {
@@ -228,7 +228,7 @@ std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, co
 }
 
 // Returns the strokes of an image, in the order of their first texels.
-std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& material) {
+std::vector<ColorStroke> strokes_in(const Painting& painting, const MaterialRef& material) {
   const auto count = static_cast<double>(painting.texels.size());
   const auto transparent =
       static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
@@ -284,8 +284,8 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
 
 }  // namespace
 
-std::vector<StrokePair> read_color_strokes(const fs::path& source_image, const MapFrame& source,
-                                           const fs::path& template_image, const MapFrame& target) {
+std::vector<StrokePair> read_color_strokes(const fs::path& source_image, const MaterialRef& source,
+                                           const fs::path& template_image, const MaterialRef& target) {
   std::vector<ColorStroke> from = strokes_in(read_painting(source_image, source), source);
   std::vector<ColorStroke> to = strokes_in(read_painting(template_image, target), target);
   require_partners(from, source_image, to, template_image);

@@ -13,12 +13,12 @@ namespace remap {
 
 // Returns the texels of the mask above 0.5 in any color channel. Throws kInput if the mask marks no texel,
 // and the errors of read_stroke_image() and require_background().
-std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material);
+std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MaterialRef& material);
 
 // Parses `x0,y0,x1,y1`, which means texels from the first corner to the second corner, without the second.
 // Rows are counted from the top. Throws kUsage for other text, and for a box that is empty or larger than the
 // material.
-std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material);
+std::vector<std::uint32_t> box_stroke(const std::string& box, const MaterialRef& material);
 
 // Returns one pair for each color except the background, in the row-major order of their first texels in the
 // source's image. The background is transparent (alpha below 0.5) if at least 1 % of the texels are.
@@ -27,20 +27,21 @@ std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& ma
 // the edges of strokes, where colors blend, and colors of less than eight texels or 0.002 % are ignored.
 // Throws kInput for an image without strokes or without flat colors and for a color in only one of the
 // images. Also throws the errors of read_stroke_image() and require_background().
-std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image, const MapFrame& source,
+std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image,
+                                           const MaterialRef& source,
                                            const std::filesystem::path& template_image,
-                                           const MapFrame& target);
+                                           const MaterialRef& target);
 
 // A StrokeChannel receives one channel: stored values, row-major from the top, integers as 0 to 1.
 using StrokeChannel = std::function<void(const std::vector<float>& values, bool is_alpha)>;
 
 // Calls `use` for each channel in the order of the file. Throws kInput if the image cannot be read or its
 // size differs from the material's.
-void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
+void read_stroke_image(const std::filesystem::path& image, const MaterialRef& material,
                        const StrokeChannel& use);
 
 // Throws kInput with the name of the image if `marked` is more than three quarters of the texels. Such an
 // image is most likely inverted.
-void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material);
+void require_background(const std::filesystem::path& image, std::size_t marked, const MaterialRef& material);
 
 }  // namespace remap

@@ -26,7 +26,7 @@ bool is_albedo(const FoundSet& set) {
 }
 
 FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
-  DiscoveryOptions options;
+  WalkOptions options;
   options.recursive = false;
   Discovery found = find_sets(folder, options);
   std::erase_if(found.sets, [&](const FoundSet& set) {
@@ -104,12 +104,12 @@ SourceParameter source_of(const SetParameter& parameter, const TextureSet& set,
 
 }  // namespace
 
-TextureMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
-  TextureMaterial result;
-  result.material.name = folder.string();
+WarpMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
+  WarpMaterial result;
+  result.name = folder.string();
   const MapModel map_model = builtin_map_model(model);
-  result.material.model = map_model.lobe;
-  result.material.is_dielectric = map_model.is_dielectric;
+  result.model = map_model.lobe;
+  result.is_dielectric = map_model.is_dielectric;
   const FoundSet found_set = only_set(folder, albedo);
   result.is_albedo = is_albedo(found_set);
   const TextureSetRequest request = request_of(folder, found_set);
@@ -127,8 +127,8 @@ TextureMaterial read_texture_material(const fs::path& folder, const std::string&
   const ImageLayout& layout = set.maps[set.first_map()].layout();
   result.width = static_cast<std::size_t>(layout.width);
   result.height = static_cast<std::size_t>(layout.height);
-  result.material.texels.resize(result.width * result.height);
-  float* first = result.material.texels.data()->data();
+  result.texels.resize(result.width * result.height);
+  float* first = result.texels.data()->data();
   MapConversion conversion;
   conversion.width = result.width;
   conversion.height = result.height;

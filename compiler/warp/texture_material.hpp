@@ -7,14 +7,6 @@
 
 namespace remap {
 
-struct TextureMaterial {
-  WarpMaterial material;  // row-major
-  std::size_t width = 0, height = 0;
-  bool is_albedo = false;  // true if it was read from only a diffuse map
-
-  MapFrame frame() const { return {material.name, width, height}; }
-};
-
 // An AlbedoAlone decides how to read a folder that has neither roughness nor specular.
 enum class AlbedoAlone {
   kRefuse,
@@ -25,7 +17,7 @@ enum class AlbedoAlone {
 // diffuse, specular (F0 or scale of `model`), and roughness, glossiness or alpha, which become alpha. Or it
 // has base color and metallic, which are converted by equation (2). All maps must have the same size. Throws
 // kInput for missing and ambiguous maps, and kUsage for a model that the built-in renderer does not have.
-TextureMaterial read_texture_material(const std::filesystem::path& folder, const std::string& model,
-                                      AlbedoAlone albedo = AlbedoAlone::kRefuse);
+WarpMaterial read_texture_material(const std::filesystem::path& folder, const std::string& model,
+                                   AlbedoAlone albedo = AlbedoAlone::kRefuse);
 
 }  // namespace remap

@@ -89,10 +89,9 @@ void remove_used_by_assets(FoundMaterials& found) {
 }
 
 void add_folder(const fs::path& folder, const Naming& naming, FoundMaterials& found) {
-  DiscoveryOptions options;
-  options.naming = &naming;
+  WalkOptions options;
   options.also = {"gltf", "glb", "mtl"};
-  const Discovery discovery = find_sets(folder, options);
+  const Discovery discovery = find_sets(folder, options, naming);
   for (const WalkProblem& problem : discovery.problems) found.problems.push_back(problem.message);
   for (const FoundSet& set : discovery.sets) add_set(folder, set, found);
   for (const fs::path& asset : discovery.others) {

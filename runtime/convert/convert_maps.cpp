@@ -529,10 +529,10 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
                                                        maps_.mask ? scratch.outside.data() : nullptr);
   if (maps_.mask) write_mask(segment, scratch);
   if (converter_.has_diagnostics() && maps_.metallic_statistics)
-    statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
-                                                 scratch.target.row(Parameter::kResidual, 0),
-                                                 scratch.target.row(Parameter::kMetallicIssues, 0),
-                                                 maps_.coverage ? scratch.coverage.data() : nullptr});
+    statistics.metallic += statistics_of({segment.x, maps_.first_row + segment.y},
+                                         {scratch.target.row(Parameter::kResidual, 0), count},
+                                         scratch.target.row(Parameter::kMetallicIssues, 0),
+                                         maps_.coverage ? scratch.coverage.data() : nullptr);
   change_convention(info.target.roughness, target_convention(),
                     {scratch.target.row(Parameter::kRoughness, 0), count});
   if (maps_.target_roughness_factor != 1.0f)

@@ -35,20 +35,19 @@ ParameterStatistics statistics_of(std::span<const float> values) {
   return statistics;
 }
 
-MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
+MetallicStatistics statistics_of(TexelPosition first, std::span<const float> residual, const float* issues,
+                                 const float* coverage) {
   MetallicStatistics sum;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float residual = row.residual[i];
-    if (std::isnan(residual) || (row.coverage != nullptr && !(row.coverage[i] > 0.0f))) continue;
-    const long issues = std::lround(row.issues[i] * 255.0f);
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    if (std::isnan(residual[i]) || (coverage != nullptr && !(coverage[i] > 0.0f))) continue;
+    const long found = std::lround(issues[i] * 255.0f);
     const auto count_if_has = [&](MetallicIssue issue, IssueStatistics& texels) {
-      if ((issues & static_cast<long>(issue)) != 0)
-        texels += {1, TexelPosition{row.first.x + i, row.first.y}};
+      if ((found & static_cast<long>(issue)) != 0) texels += {1, TexelPosition{first.x + i, first.y}};
     };
-    const double square = static_cast<double>(residual) * static_cast<double>(residual);
+    const double square = static_cast<double>(residual[i]) * static_cast<double>(residual[i]);
     ++sum.texel_count;
     sum.residual_squares += static_cast<std::uint64_t>(std::llround(square / kResidualUnit));
-    sum.largest_residual = std::max(sum.largest_residual, residual);
+    sum.largest_residual = std::max(sum.largest_residual, residual[i]);
     count_if_has(MetallicIssue::kUndetermined, sum.undetermined);
     count_if_has(MetallicIssue::kDark, sum.dark);
     count_if_has(MetallicIssue::kAmbiguous, sum.ambiguous);

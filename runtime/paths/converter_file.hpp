@@ -13,7 +13,7 @@ namespace remap {
 
 // An UnusedFit is a fit between workflows that texremap does not run. It is a network, or a formula that
 // texremap has already.
-struct UnusedFit {};
+using UnusedFit = std::monostate;
 
 using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;
 

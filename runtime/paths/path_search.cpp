@@ -1,6 +1,7 @@
 #include "paths/path_search.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -38,12 +39,10 @@ struct Beginning {
   std::vector<std::size_t> edges;
   std::size_t node = 0;
   std::size_t next = 1;  // index of the waypoint to reach next
-};
 
-struct ComesLater {
-  bool operator()(const Beginning& a, const Beginning& b) const {
-    const std::size_t a_count = a.edges.size(), b_count = b.edges.size();
-    return std::tie(a.bound, a_count, a.edges) > std::tie(b.bound, b_count, b.edges);
+  bool operator>(const Beginning& other) const {
+    const std::size_t count = edges.size(), other_count = other.edges.size();
+    return std::tie(bound, count, edges) > std::tie(other.bound, other_count, other.edges);
   }
 };
 
@@ -134,7 +133,7 @@ class Search {
 
   const DirectedGraph& graph_;
   const std::vector<std::size_t>& waypoints_;
-  std::priority_queue<Beginning, std::vector<Beginning>, ComesLater> queue_;
+  std::priority_queue<Beginning, std::vector<Beginning>, std::greater<>> queue_;
 };
 
 }  // namespace

@@ -85,19 +85,19 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   return std::nullopt;
 }
 
-void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
-              Discovery& discovery) {
+void add_sets(const fs::path& folder, const std::string& folder_name, const std::vector<std::string>& images,
+              const Naming& naming, Discovery& discovery) {
   std::vector<NamedMap> maps;
-  for (TileGroup& files : group_tiles(folder.images)) {
+  for (TileGroup& files : group_tiles(images)) {
     std::vector<NameReading> readings = naming.read(readable_name(files));
     if (readings.empty())
-      discovery.unrecognised.push_back(folder.path / files.name);
+      discovery.unrecognised.push_back(folder / files.name);
     else
       maps.push_back({std::move(files), std::move(readings)});
   }
   choose_readings(maps);
   std::erase_if(maps, [&](const NamedMap& map) {
-    if (map.readings.empty()) discovery.unrecognised.push_back(folder.path / map.files.name);
+    if (map.readings.empty()) discovery.unrecognised.push_back(folder / map.files.name);
     return map.readings.empty();
   });
   choose_stems(maps);
@@ -106,8 +106,8 @@ void add_sets(const ImageFolder& folder, const std::string& folder_name, const N
   for (const NamedMap& map : maps) {
     FoundSet& set = sets[map.stem()];
     set.name = map.stem().empty() ? folder_name : map.stem();
-    set.folder = folder.path;
-    set.maps.push_back(found_map(folder.path, map));
+    set.folder = folder;
+    set.maps.push_back(found_map(folder, map));
   }
   for (auto& [stem, set] : sets) {
     std::stable_partition(set.maps.begin(), set.maps.end(),
@@ -179,14 +179,13 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
          "; keep one, or choose by --prefer WORD";
 }
 
-Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
-  const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();
+Discovery find_sets(const fs::path& root, const WalkOptions& options, const Naming& naming) {
   Walk walk = walk_images(root, options);
   Discovery discovery;
   discovery.problems = std::move(walk.problems);
   discovery.others = std::move(walk.others);
-  for (const ImageFolder& folder : walk.folders)
-    add_sets(folder, folder.path.empty() ? last_name(root) : folder.path.filename().string(), naming,
+  for (const auto& [folder, images] : walk.images)
+    add_sets(folder, folder.empty() ? last_name(root) : folder.filename().string(), images, naming,
              discovery);
 
   const auto key = [](const FoundSet& set) { return (set.folder / set.name).string(); };

@@ -62,10 +62,6 @@ void judge(FoundSet& set);
 // Returns a text like `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
-struct DiscoveryOptions : WalkOptions {
-  const Naming* naming = nullptr;  // if null, the built-in conventions are used
-};
-
 struct Discovery {
   std::vector<FoundSet> sets;  // sorted by folder and name, byte by byte
   std::vector<std::filesystem::path>
@@ -80,6 +76,7 @@ struct Discovery {
 // (dark_metallic_roughness), the longer word wins, unless only the stem of the shorter word belongs to
 // another map. The result does not depend on the order in which the system lists files. Throws kInput if the
 // root cannot be read. All other problems are part of the result.
-Discovery find_sets(const std::filesystem::path& root, const DiscoveryOptions& options);
+Discovery find_sets(const std::filesystem::path& root, const WalkOptions& options,
+                    const Naming& naming = built_in_naming());
 
 }  // namespace remap

@@ -68,24 +68,24 @@ class Walker {
     }
     if (!visited_.insert(found->identity).second) return;
 
-    ImageFolder images{relative, {}};
+    std::vector<std::string> images;
     std::error_code failure;
     for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
          entry.increment(failure))
-      add_entry(*entry, images);
+      add_entry(*entry, relative, images);
     if (failure)
       add_problem(relative, failure.message());
     else
       root_was_read_ = true;
-    if (images.images.empty()) return;
-    std::sort(images.images.begin(), images.images.end());
-    walk_.folders.push_back(std::move(images));
+    if (images.empty()) return;
+    std::sort(images.begin(), images.end());
+    walk_.images.emplace(relative, std::move(images));
   }
 
-  void add_entry(const fs::directory_entry& entry, ImageFolder& folder) {
+  void add_entry(const fs::directory_entry& entry, const fs::path& folder, std::vector<std::string>& images) {
     const std::string name = entry.path().filename().string();
     if (name.front() == '.') return;
-    const fs::path relative = folder.path / name;
+    const fs::path relative = folder / name;
     std::error_code failure;
     const bool link = entry.is_symlink(failure);
     const fs::file_status status = entry.status(failure);
@@ -94,7 +94,7 @@ class Walker {
     } else if (const std::string extension = extension_of(name);
                holds(kExtensions, extension) || holds(also_, extension)) {
       if (fs::is_regular_file(status) && holds(kExtensions, extension))
-        folder.images.push_back(name);
+        images.push_back(name);
       else if (fs::is_regular_file(status))
         walk_.others.push_back(relative);
       else if (failure || !fs::exists(status))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,6 @@ struct WalkOptions {
   std::vector<std::string> also;  // more extensions, without dot, of files that are listed separately
 };
 
-struct ImageFolder {
-  std::filesystem::path path;       // relative to the root; empty for the root itself
-  std::vector<std::string> images;  // file names, sorted by bytes
-};
-
 // A WalkProblem is a file or folder that could not be read.
 struct WalkProblem {
   std::filesystem::path path;  // relative to the root
@@ -29,7 +25,8 @@ struct WalkProblem {
 };
 
 struct Walk {
-  std::vector<ImageFolder> folders;  // folders with images, in any order
+  // Holds the names of images, sorted by bytes, by their folder: relative to the root, empty for the root.
+  std::map<std::filesystem::path, std::vector<std::string>> images;
   std::vector<std::filesystem::path>
       others;                         // files with an extension of `also`, relative to the root, in any order
   std::vector<WalkProblem> problems;  // in any order

@@ -34,41 +34,35 @@ std::optional<int> digits_value(std::string_view digits) {
   return value;
 }
 
-// A Place is a placeholder in a name.
-struct Place {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  TileStyle style = TileStyle::kUdim;
-  int digit_count = 0;
-};
+// Returns the pattern whose placeholder is [begin, end) of `name`.
+TilePattern pattern_of(std::string_view name, std::size_t begin, std::size_t end, TileStyle style,
+                       int digit_count = 0) {
+  return {std::string(name.substr(0, begin)), std::string(name.substr(begin, end - begin)),
+          std::string(name.substr(end)), style, digit_count};
+}
 
-// Finds `%d` or `%04d` at the beginning of `text`.
-std::optional<Place> printf_place(std::string_view text, std::size_t begin) {
+// Finds `%d` or `%04d` at `begin`.
+std::optional<TilePattern> printf_pattern(std::string_view name, std::size_t begin) {
   std::size_t end = begin + 1;
-  while (end < text.size() && is_digit(text[end])) ++end;
-  if (end >= text.size() || text[end] != 'd') return std::nullopt;
-  const std::string_view width = text.substr(begin + 1, end - begin - 1);
-  if (width.empty()) return Place{begin, end + 1, TileStyle::kFrame, 1};
+  while (end < name.size() && is_digit(name[end])) ++end;
+  if (end >= name.size() || name[end] != 'd') return std::nullopt;
+  const std::string_view width = name.substr(begin + 1, end - begin - 1);
+  if (width.empty()) return pattern_of(name, begin, end + 1, TileStyle::kFrame, 1);
   // Refuse a width without a leading zero, because printf would fill with spaces.
   if (width.front() != '0' || width.size() != 2 || width.back() == '0') return std::nullopt;
-  return Place{begin, end + 1, TileStyle::kFrame, width.back() - '0'};
+  return pattern_of(name, begin, end + 1, TileStyle::kFrame, width.back() - '0');
 }
 
-std::optional<Place> place_at(std::string_view name, std::size_t i) {
+// Returns the pattern if a placeholder begins at `begin`.
+std::optional<TilePattern> pattern_at(std::string_view name, std::size_t begin) {
   for (const auto& [token, style] : kTokens)
-    if (name.substr(i).starts_with(token)) return Place{i, i + token.size(), style, 0};
-  if (name[i] == '%') return printf_place(name, i);
-  if (name[i] != '#') return std::nullopt;
-  std::size_t end = i;
+    if (name.substr(begin).starts_with(token)) return pattern_of(name, begin, begin + token.size(), style);
+  if (name[begin] == '%') return printf_pattern(name, begin);
+  if (name[begin] != '#') return std::nullopt;
+  std::size_t end = begin;
   while (end < name.size() && name[end] == '#') ++end;
-  if (end - i > kMostDigits) return std::nullopt;
-  return Place{i, end, TileStyle::kFrame, static_cast<int>(end - i)};
-}
-
-TilePattern pattern_of(std::string_view name, const Place& place) {
-  return {std::string(name.substr(0, place.begin)),
-          std::string(name.substr(place.begin, place.end - place.begin)), std::string(name.substr(place.end)),
-          place.style, place.digit_count};
+  if (end - begin > kMostDigits) return std::nullopt;
+  return pattern_of(name, begin, end, TileStyle::kFrame, static_cast<int>(end - begin));
 }
 
 // Returns the UDIM of a tile such as u3_v2, given as its two parts.
@@ -110,15 +104,15 @@ std::optional<Candidate> find_candidate(const std::string& name) {
     const bool last = i + 1 == pieces.size();
     const std::optional<int> number = piece.size() == 4 ? digits_value(piece) : std::nullopt;
     if (number && is_udim(*number)) {
-      const Place place{pieces[i].begin, pieces[i].end, TileStyle::kUdim, 0};
-      Candidate candidate{name, pattern_of(name, place), *number, last};
+      Candidate candidate{name, pattern_of(name, pieces[i].begin, pieces[i].end, TileStyle::kUdim), *number,
+                          last};
       candidate.pattern.token = "<UDIM>";
       return candidate;
     }
     if (i == 0 || stem.substr(pieces[i - 1].end, pieces[i].begin - pieces[i - 1].end) != "_") continue;
     if (const std::optional<int> uv = uv_number(pieces[i - 1].in(stem), piece)) {
-      const Place place{pieces[i - 1].begin, pieces[i].end, TileStyle::kUvTile, 0};
-      Candidate candidate{name, pattern_of(name, place), *uv, last};
+      Candidate candidate{name, pattern_of(name, pieces[i - 1].begin, pieces[i].end, TileStyle::kUvTile), *uv,
+                          last};
       candidate.pattern.token = "<UVTILE>";
       // Refuse other spellings, because the pattern could not produce a name in capitals.
       if (tile_name(candidate.pattern, *uv) == name) return candidate;
@@ -137,12 +131,12 @@ bool is_tile_alone(const Candidate& candidate) {
 std::optional<TilePattern> tile_pattern(std::string_view name) {
   std::optional<TilePattern> pattern;
   for (std::size_t i = 0; i < name.size();) {
-    const std::optional<Place> place = place_at(name, i);
-    if (place && pattern)
+    const std::optional<TilePattern> found = pattern_at(name, i);
+    if (found && pattern)
       throw Error(ErrorKind::kUsage, display_path(name) + ": has two placeholders, " + pattern->token +
-                                         " and " + pattern_of(name, *place).token + " (use one)");
-    if (place) pattern = pattern_of(name, *place);
-    i = place ? place->end : i + 1;
+                                         " and " + found->token + " (use one)");
+    if (found) pattern = found;
+    i += found ? found->token.size() : 1;
   }
   return pattern;
 }

@@ -49,7 +49,7 @@ LayoutContent content_of(const std::string& option, const std::string& file, con
       {"specular", LayoutParameter{Parameter::kSpecular, {}}},
       {"diffuse", LayoutParameter{Parameter::kDiffuse, {}}},
       {"base_color", LayoutParameter{Parameter::kBaseColor, {}}},
-      {"occlusion", LayoutCarried{"occlusion", 1.0f}}};
+      {"occlusion", std::string("occlusion")}};
   std::vector<std::string> known;
   for (const auto& [name, content] : kWords) {
     if (name == word) return content;
@@ -130,9 +130,9 @@ const LayoutFile* Layout::file_with(Parameter parameter) const {
 bool Layout::has_place_for(std::string_view carried) const {
   for (const LayoutFile& file : files)
     for (const LayoutContent& content : file.content) {
-      const auto* other = std::get_if<LayoutCarried>(&content);
+      const auto* other = std::get_if<std::string>(&content);
       const auto* own = std::get_if<LayoutParameter>(&content);
-      if (other != nullptr && other->name == carried) return true;
+      if (other != nullptr && *other == carried) return true;
       if (own != nullptr && parameter_name(own->parameter) == carried) return true;
     }
   return false;

@@ -20,13 +20,9 @@ struct LayoutParameter {
   Parameter parameter = Parameter::kRoughness;
   std::optional<RoughnessEncoding> width;  // for kRoughness: roughness or glossiness
 };
-// A LayoutCarried is a parameter that is passed through and never converted (`occlusion`).
-struct LayoutCarried {
-  std::string name;
-  float otherwise = 1.0f;  // stored value if the set lacks the parameter
-};
-// A LayoutContent is roughness, metallic and so on, occlusion, or a stored value from 0 to 1.
-using LayoutContent = std::variant<LayoutParameter, LayoutCarried, float>;
+// A LayoutContent is roughness, metallic and so on, the name of a parameter that is passed through and never
+// converted (`occlusion`), or a stored value from 0 to 1.
+using LayoutContent = std::variant<LayoutParameter, std::string, float>;
 
 struct LayoutFile {
   std::string name;                    // without extension; the set's name replaces `*`, or is put in front

@@ -185,11 +185,11 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
                                        const TargetChoice& choice) {
   if (const auto* number = std::get_if<float>(&content)) return {*number};
   const auto carried = [&](const std::string& name, float otherwise) -> std::vector<TargetChannel> {
-    for (const CarriedParameter& parameter : set.carried)
+    for (const Carried<SetParameter>& parameter : set.carried)
       if (parameter.name == name) return {carried_channel(parameter.parameter)};
     return {otherwise};
   };
-  if (const auto* other = std::get_if<LayoutCarried>(&content)) return carried(other->name, other->otherwise);
+  if (const auto* other = std::get_if<std::string>(&content)) return carried(*other, 1.0f);
   const Parameter parameter = std::get<LayoutParameter>(content).parameter;
   if (parameter == Parameter::kMetallic && !is_wanted(choice, parameter))
     return carried(std::string(parameter_name(parameter)), 0.0f);
@@ -203,9 +203,9 @@ std::vector<TargetChannel> channels_of(const LayoutContent& content, const Textu
 bool holds_something(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   return std::ranges::any_of(file.content, [&](const LayoutContent& content) {
     if (const auto* own = std::get_if<LayoutParameter>(&content)) return is_wanted(choice, own->parameter);
-    const auto* other = std::get_if<LayoutCarried>(&content);
-    return other != nullptr && std::ranges::any_of(set.carried, [&](const CarriedParameter& carried) {
-             return carried.name == other->name;
+    const auto* other = std::get_if<std::string>(&content);
+    return other != nullptr && std::ranges::any_of(set.carried, [&](const Carried<SetParameter>& carried) {
+             return carried.name == *other;
            });
   });
 }
@@ -306,7 +306,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
                                          std::string(parameter_name(parameter)) + " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
-  for (const CarriedParameter& carried : set.carried) {
+  for (const Carried<SetParameter>& carried : set.carried) {
     if (!carried.parameter.is_map())
       throw Error(ErrorKind::kUsage,
                   "--" + carried.name +
@@ -321,7 +321,8 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   return plan;
 }
 
-PlannedMap carried_map(const TextureSet& set, const CarriedParameter& carried, const TargetChoice& choice) {
+PlannedMap carried_map(const TextureSet& set, const Carried<SetParameter>& carried,
+                       const TargetChoice& choice) {
   PlannedMap map =
       new_map(named(carried.name, choice.names), kGrey, {carried_channel(carried.parameter)}, set, choice);
   if (carried.parameter.is_map()) map.parts.front().model = carried.parameter.channels.front().map;
@@ -365,7 +366,7 @@ std::vector<PlannedMap> layout_maps(const TextureSet& set, const TargetChoice& c
     if (holds_something(file, set, choice)) all.push_back(layout_map(file, set, choice));
   for (const Parameter parameter : choice.parameters)
     if (choice.layout.file_with(parameter) == nullptr) all.push_back(own_map(set, parameter, choice));
-  for (const CarriedParameter& carried : set.carried)
+  for (const Carried<SetParameter>& carried : set.carried)
     if (!choice.layout.has_place_for(carried.name)) all.push_back(carried_map(set, carried, choice));
   return all;
 }

@@ -27,6 +27,7 @@ struct CopiedFile {
   std::string name;
   // This is the name of the copy of a normal map with inverted green.
   std::string turned_name;
+  std::string reason = {};  // why green is inverted, or kept although nothing is known; or empty
 };
 struct PlannedCopy {
   std::filesystem::path source;

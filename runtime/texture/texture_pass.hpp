@@ -21,7 +21,7 @@ struct ConvertedChannel {
   Parameter parameter = Parameter::kRoughness;
   std::size_t index = 0;  // channel of the parameter, such as 2 for blue
 };
-struct MaskChannel {};
+using MaskChannel = std::monostate;
 using TargetChannel = std::variant<ConvertedChannel, MaskChannel, ChannelPlace, float>;
 
 // Returns true if a converter makes the channel. Copies and constants are not converted.

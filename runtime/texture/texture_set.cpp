@@ -164,7 +164,7 @@ std::vector<const SetParameter*> mapped_parameters(const TextureSet& set) {
     if (parameter.is_map()) mapped.push_back(&parameter);
   };
   for (const auto& [parameter, values] : set.parameters) add(values);
-  for (const CarriedParameter& carried : set.carried) add(carried.parameter);
+  for (const Carried<SetParameter>& carried : set.carried) add(carried.parameter);
   return mapped;
 }
 
@@ -368,7 +368,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     set.parameters[parameter] = std::move(opened);
   }
   (void)set.first_map();  // throws if all parameters are numbers
-  for (const CarriedRequest& carried : request.carried) {
+  for (const Carried<ParameterRequest>& carried : request.carried) {
     SetParameter parameter =
         open_parameter(carried.parameter, std::nullopt, "one channel, Y, or R, G and B", set);
     if (parameter.is_map()) parameter.channels.resize(1);

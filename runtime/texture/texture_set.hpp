@@ -45,15 +45,17 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
 // Parses one or three finite factors of at least 0. Throws like parameter_source().
 std::vector<float> parse_factors(std::string_view option, std::string_view text);
 
-// A CarriedRequest is a parameter that is not converted, but has a place in a layout.
-struct CarriedRequest {
+// A Carried is a parameter that is not converted, but has a place in a layout. It is a ParameterRequest, or
+// in an open set a SetParameter. It has one channel, or is one constant.
+template <typename AnyParameter>
+struct Carried {
   std::string name;  // such as `occlusion` or `metallic`
-  ParameterRequest parameter;
+  AnyParameter parameter;
 };
 
 struct TextureSetRequest {
   std::map<Parameter, ParameterRequest> parameters;
-  std::vector<CarriedRequest> carried;          // each with one channel
+  std::vector<Carried<ParameterRequest>> carried;
   std::optional<RoughnessEncoding> convention;  // encoding of the roughness map; by default the model's
   bool resample = false;                        // enlarge maps to the largest width and height among them
 };
@@ -84,18 +86,13 @@ struct SetParameter : ParameterValues {
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }
 };
 
-struct CarriedParameter {
-  std::string name;
-  SetParameter parameter;  // has one channel, or is one constant
-};
-
 // A TextureSet is an open set. Each texel has one value of each parameter, or for colors one or three. A map
 // is one part of a file. The set has all parts of its files. Parts without a parameter may have any size. A
 // file is opened only once, even if it has several parameters. At least one parameter is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   std::map<Parameter, SetParameter> parameters;
-  std::vector<CarriedParameter> carried;
+  std::vector<Carried<SetParameter>> carried;
   // This is the opacity: the alpha of the file of diffuse or base color, if no parameter uses it.
   std::optional<ChannelPlace> coverage;
   std::optional<RoughnessEncoding> convention;

@@ -73,12 +73,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   remap::AssetOptions extensions = core;
   extensions.extensions = true;
   (void)remap::read_or_refuse([&] { edit_twice(bytes, core, resources); });
-  (void)remap::read_or_refuse([&] {
-    (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", core, resources, {true, "file"});
-  });
+  (void)remap::read_or_refuse(
+      [&] { (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", core, resources); });
   (void)remap::read_or_refuse(
       [&] { (void)remap::obj_resources(remap::MemorySource(bytes), "file", resources); });
   return remap::read_or_refuse([&] {
-    (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", extensions, resources, {false, "file"});
+    (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", extensions, resources, "file.bin");
   });
 }

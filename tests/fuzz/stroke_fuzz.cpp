@@ -16,7 +16,9 @@ constexpr std::size_t kLongestBox = 200, kTexels = 16;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // A module that cannot be loaded would otherwise look like images that are refused.
   (void)remap::image_library();
-  const remap::MapFrame frame{"maps", 4, 4};
+  remap::WarpMaterial maps;
+  maps.name = "maps";
+  maps.width = maps.height = 4;
   const std::string_view text = remap::text_of(data, size);
   const auto require = [](const std::vector<std::uint32_t>& stroke) {
     if (stroke.empty()) std::abort();
@@ -25,6 +27,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   // A box is an argument. The programs print arguments as plain text.
   if (size <= kLongestBox && remap::is_plain_text(text))
-    return remap::read_or_refuse([&] { require(remap::box_stroke(std::string(text), frame)); });
-  return remap::read_or_refuse([&] { require(remap::read_stroke(remap::fuzz_file(data, size), frame)); });
+    return remap::read_or_refuse([&] { require(remap::box_stroke(std::string(text), maps)); });
+  return remap::read_or_refuse([&] { require(remap::read_stroke(remap::fuzz_file(data, size), maps)); });
 }

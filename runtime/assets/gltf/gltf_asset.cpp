@@ -61,61 +61,59 @@ void drop_unnamed(AssetConversion& conversion, const std::string& context) {
                 [&](const AssetResource& resource) { return !named.contains(resource.path); });
 }
 
-// A ViewCheck checks that views lie within buffers, and a container's first buffer within its binary chunk.
-class ViewCheck {
- public:
-  ViewCheck(const SpannedJson& json, const GltfContainer& container, const std::string& context)
-      : root_(json.root()), container_(container), context_(context) {}
-
-  // Checks all views. Returns warnings.
-  std::vector<std::string> run() {
-    for (const SpanValue& buffer : root_["buffers"].entries()) {
-      const std::optional<std::size_t> length = buffer["byteLength"].whole();
-      if (!length)
-        throw input_error(context_ + ": /buffers/" + std::to_string(lengths_.size()) +
-                          ": its byteLength is not an integer");
-      lengths_.push_back(*length);
-    }
-    std::vector<std::string> warnings = check_chunk();
-    const std::vector<SpanValue> views = root_["bufferViews"].entries();
-    for (std::size_t i = 0; i < views.size(); ++i) check_view(views[i], i);
-    return warnings;
+// Returns the lengths of the buffers.
+std::vector<std::size_t> buffer_lengths(SpanValue root, const std::string& context) {
+  std::vector<std::size_t> lengths;
+  for (const SpanValue& buffer : root["buffers"].entries()) {
+    const std::optional<std::size_t> length = buffer["byteLength"].whole();
+    if (!length)
+      throw input_error(context + ": /buffers/" + std::to_string(lengths.size()) +
+                        ": its byteLength is not an integer");
+    lengths.push_back(*length);
   }
+  return lengths;
+}
 
- private:
-  std::vector<std::string> check_chunk() const {
-    const GlbChunk* const chunk = container_.binary_chunk();
-    if (chunk == nullptr || lengths_.empty()) return {};
-    const std::vector<SpanValue> buffers = root_["buffers"].entries();
-    if (buffers.front()["uri"]) return {};
-    const std::uint64_t size = chunk->content_size(), length = lengths_.front();
-    if (length > size)
-      throw input_error(context_ + ": /buffers/0 has " + std::to_string(length) +
-                        " bytes, but the binary chunk has " + std::to_string(size));
-    if (size - length <= kMostPadding) return {};
-    return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
-  }
+// Checks that the first buffer of a container lies within its binary chunk. Returns warnings.
+std::vector<std::string> check_chunk(SpanValue root, const GltfContainer& container,
+                                     const std::vector<std::size_t>& lengths, const std::string& context) {
+  const GlbChunk* const chunk = container.binary_chunk();
+  if (chunk == nullptr || lengths.empty()) return {};
+  const std::vector<SpanValue> buffers = root["buffers"].entries();
+  if (buffers.front()["uri"]) return {};
+  const std::uint64_t size = chunk->content_size(), length = lengths.front();
+  if (length > size)
+    throw input_error(context + ": /buffers/0 has " + std::to_string(length) +
+                      " bytes, but the binary chunk has " + std::to_string(size));
+  if (size - length <= kMostPadding) return {};
+  return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
+}
 
-  void check_view(SpanValue view, std::size_t index) const {
-    const std::string name = context_ + ": /bufferViews/" + std::to_string(index);
-    const std::optional<std::size_t> buffer = view["buffer"].whole(), length = view["byteLength"].whole();
-    const SpanValue offset_value = view["byteOffset"];
-    const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
-    if (!buffer || !length || !offset)
-      throw input_error(name + ": its buffer, byteOffset and byteLength are not integers");
-    if (*buffer >= lengths_.size())
-      throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
-                        counted(lengths_.size(), "buffer"));
-    if (const std::size_t size = lengths_[*buffer]; *offset + *length > size)
-      throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
-                        std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));
-  }
+// Checks that a view lies within its buffer. `name` is for messages.
+void check_view(SpanValue view, const std::vector<std::size_t>& lengths, const std::string& name) {
+  const std::optional<std::size_t> buffer = view["buffer"].whole(), length = view["byteLength"].whole();
+  const SpanValue offset_value = view["byteOffset"];
+  const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
+  if (!buffer || !length || !offset)
+    throw input_error(name + ": its buffer, byteOffset and byteLength are not integers");
+  if (*buffer >= lengths.size())
+    throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
+                      counted(lengths.size(), "buffer"));
+  if (const std::size_t size = lengths[*buffer]; *offset + *length > size)
+    throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
+                      std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));
+}
 
-  SpanValue root_;
-  const GltfContainer& container_;
-  const std::string& context_;
-  std::vector<std::size_t> lengths_;  // lengths of the buffers
-};
+// Checks the buffers and all views. Returns warnings.
+std::vector<std::string> check_views(SpanValue root, const GltfContainer& container,
+                                     const std::string& context) {
+  const std::vector<std::size_t> lengths = buffer_lengths(root, context);
+  std::vector<std::string> warnings = check_chunk(root, container, lengths, context);
+  const std::vector<SpanValue> views = root["bufferViews"].entries();
+  for (std::size_t i = 0; i < views.size(); ++i)
+    check_view(views[i], lengths, context + ": /bufferViews/" + std::to_string(i));
+  return warnings;
+}
 
 }  // namespace
 
@@ -129,14 +127,12 @@ AssetConversion convert_gltf(const ByteSource& source, const std::string& contex
   const GltfContainer container = read_container(source, context);
   const SpannedJson json(container.json, context);
   std::vector<std::string> warnings = container.notes;
-  for (const std::string& warning : ViewCheck(json, container, context).run()) warnings.push_back(warning);
-  GltfResult result = convert_materials({json, container, source, context}, options, resources);
-  AssetConversion& conversion = result.asset;
+  for (const std::string& warning : check_views(json.root(), container, context)) warnings.push_back(warning);
+  AssetConversion conversion = convert_materials({json, container, source, context}, options, resources);
   conversion.warnings.insert(conversion.warnings.begin(), warnings.begin(), warnings.end());
   conversion.resources = resources_of(json);
   if (options.compacts && conversion.changed) drop_unnamed(conversion, context);
-  if (conversion.changed) conversion.pieces = with_json(container, conversion.text, result.tail, context);
-  return std::move(conversion);
+  return conversion;
 }
 
 }  // namespace remap

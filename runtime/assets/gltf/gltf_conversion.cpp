@@ -66,11 +66,11 @@ class GltfConversion {
     if (options.folds_specular) directions_.push_back(make_specular_fold(options, textures));
   }
 
-  GltfResult result() {
+  AssetConversion result() {
     require_gltf();
     read_pointers();
     convert_all();
-    result_.asset.text = source_.json.text();
+    result_.text = source_.json.text();
     if (!edits_.empty()) write_all();
     return std::move(result_);
   }
@@ -84,7 +84,7 @@ class GltfConversion {
                         ", but only glTF 2 can be read (convert it to glTF 2 first)");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
-        result_.asset.warnings.push_back(
+        result_.warnings.push_back(
             "requires " + plain(name) +
             ", which texremap does not know: it stays, but may not fit the converted materials");
   }
@@ -109,9 +109,9 @@ class GltfConversion {
     if (list && !list.is(SpanKind::kList))
       throw input_error(source_.context + ": materials: expected a list");
     const std::vector<SpanValue> all = list.children();
-    result_.asset.materials.resize(all.size());
+    result_.materials.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      AssetMaterial& report = result_.asset.materials[i];
+      AssetMaterial& report = result_.materials[i];
       report.index = i;
       report.name = all[i]["name"].text().value_or("");
       if (GltfDirection* const direction = direction_of(all[i])) convert(*direction, all[i], report);
@@ -146,35 +146,37 @@ class GltfConversion {
     std::set<std::size_t> removed;  // values of extensions that textures lose
     std::set<std::string> formats;
     if (parts_) {
-      const GltfSpares spares =
-          options_.compacts ? find_spares(source_.json, source_.container, edits, result_.asset.warnings)
-                            : GltfSpares();
+      const GltfSpares spares = options_.compacts
+                                    ? find_spares(source_.json, source_.container, edits, result_.warnings)
+                                    : GltfSpares();
       parts_->added.write(spares, text);
       for (const SpanValue& extension : parts_->added.removed_extensions()) {
         removed.insert(extension.index());
         formats.insert(extension.key());
       }
-      result_.tail = parts_->added.tail();
-      result_.asset.files = std::move(parts_->added.files());
+      result_.files = std::move(parts_->added.files());
     }
     note_colored();
-    for (const auto& [index, edit] : edits_) writer.write(edit, result_.asset.materials[index]);
+    for (const auto& [index, edit] : edits_) writer.write(edit, result_.materials[index]);
     writer.update_lists(formats, removed);
-    result_.asset.changed = !text.empty();
-    result_.asset.touched = text.touched();
-    result_.asset.text = text.result();
+    result_.changed = !text.empty();
+    result_.touched = text.touched();
+    result_.text = text.result();
+    if (result_.changed)
+      result_.pieces = with_json(source_.container, result_.text,
+                                 parts_ ? parts_->added.tail() : BinaryTail(), source_.context);
   }
 
   // Reports vertex colors (COLOR_0), because they multiply base color in one workflow and diffuse in the
   // other.
   void note_colored() {
-    std::vector<std::size_t> counts(result_.asset.materials.size());
+    std::vector<std::size_t> counts(result_.materials.size());
     for (const SpanValue& mesh : root_["meshes"].children())
       for (const SpanValue& primitive : mesh["primitives"].children())
         if (primitive["attributes"]["COLOR_0"]) count_uses(primitive, counts);
     for (const auto& [index, edit] : edits_)
       if (counts[index] > 0 && !edit.vertex_color_warning.empty())
-        result_.asset.materials[index].warnings.push_back(
+        result_.materials[index].warnings.push_back(
             "vertex colors of " + counted(counts[index], "primitive") + " " + edit.vertex_color_warning);
   }
 
@@ -198,13 +200,13 @@ class GltfConversion {
   std::vector<std::unique_ptr<GltfDirection>> directions_;
   std::set<std::pair<std::size_t, std::string>> pointers_;  // keyed by material
   std::vector<std::pair<std::size_t, MaterialEdit>> edits_;
-  GltfResult result_;
+  AssetConversion result_;
 };
 
 }  // namespace
 
-GltfResult convert_materials(const GltfSource& source, const AssetOptions& options,
-                             const AssetResources* resources) {
+AssetConversion convert_materials(const GltfSource& source, const AssetOptions& options,
+                                  const AssetResources* resources) {
   return GltfConversion(source, options, resources).result();
 }
 

@@ -18,14 +18,9 @@ struct GltfSource {
   const std::string& context;
 };
 
-struct GltfResult {
-  AssetConversion asset;  // the caller fills in its pieces and resources
-  BinaryTail tail;
-};
-
 // Throws kInput, beginning with the place, for a text that is not glTF 2, and kUsage for options that exclude
-// each other. Without `resources`, materials with textures fail.
-GltfResult convert_materials(const GltfSource& source, const AssetOptions& options,
-                             const AssetResources* resources);
+// each other. Without `resources`, materials with textures fail. The caller fills in the resources.
+AssetConversion convert_materials(const GltfSource& source, const AssetOptions& options,
+                                  const AssetResources* resources);
 
 }  // namespace remap

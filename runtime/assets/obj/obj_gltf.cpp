@@ -168,14 +168,15 @@ std::vector<AssetPiece> glb_pieces(std::string json, GltfBuffer& buffer, const s
 }  // namespace
 
 AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& context, const AssetOptions& options,
-                            const AssetResources& resources, const GltfOutput& output) {
+                            const AssetResources& resources, const std::string& buffer_file) {
   ObjScene scene = read_obj(obj, context);
   if (scene.shapes.empty()) throw input_error(context + ": has no faces");
   AssetConversion conversion;
   conversion.warnings = scene.warnings;
+  const bool is_glb = buffer_file.empty();
   GltfBuffer buffer;
-  GltfTextures textures(options, resources, output.as_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles,
-                        buffer, conversion);
+  GltfTextures textures(options, resources, is_glb ? NewImagePlace::kBuffer : NewImagePlace::kFiles, buffer,
+                        conversion);
   MtlLibraries libraries(resources, options.mtl_maker);
   libraries.read(scene.libraries, context, conversion.warnings);
   for (const std::string& path : libraries.image_paths()) textures.take(path);
@@ -193,12 +194,11 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& context, c
   add_list(file, "samplers", textures.samplers());
   file["bufferViews"] = buffer.views();
   Json whole{{"byteLength", buffer.size()}};
-  const std::string buffer_name = output.name + ".bin";
-  if (!output.as_glb) whole["uri"] = uri_of_path(buffer_name);
+  if (!is_glb) whole["uri"] = uri_of_path(buffer_file);
   file["buffers"] = Json::list({std::move(whole)});
   conversion.text = file.dump();
   conversion.changed = true;
-  if (output.as_glb) {
+  if (is_glb) {
     conversion.pieces = glb_pieces(conversion.text, buffer, context);
     return conversion;
   }
@@ -206,7 +206,7 @@ AssetConversion gltf_of_obj(const ByteSource& obj, const std::string& context, c
     throw output_error(context + ": its buffer would have " + std::to_string(buffer.size()) +
                        " bytes; at most 4 GiB are written (split the file)");
   conversion.pieces.push_back({conversion.text, 0, 0});
-  conversion.files.push_back({buffer_name, buffer.take(buffer.size())});
+  conversion.files.push_back({buffer_file, buffer.take(buffer.size())});
   return conversion;
 }
 

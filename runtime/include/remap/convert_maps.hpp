@@ -82,14 +82,10 @@ struct MapStatistics {
 
 ParameterStatistics statistics_of(std::span<const float> values);
 
-// A DiagnosedRow holds the rows for a converter. `coverage` may be null.
-struct DiagnosedRow {
-  TexelPosition first;
-  const float* residual;
-  const float* issues;
-  const float* coverage;
-};
-MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row);
+// Describes the texels of a row from `first` on, which have the diagnosed `residual` and `issues`. `coverage`
+// may be null.
+MetallicStatistics statistics_of(TexelPosition first, std::span<const float> residual, const float* issues,
+                                 const float* coverage);
 
 // A SourceParameter holds the values of one source parameter: channels of a map, or constants.
 struct SourceParameter : ParameterValues {

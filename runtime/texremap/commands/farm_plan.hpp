@@ -19,6 +19,7 @@ inline constexpr NamedValues<PlanKind, 3> kPlanKinds = {
 struct PlannedFarm {
   std::string program;                                   // texremap, as the jobs call it
   std::filesystem::path manifest, tree, output, folder;  // absolute paths; `folder` is where the plan lies
+  std::filesystem::path report;                          // of all parts, in `folder`
   std::vector<std::string> options;                      // options of convert, except the paths above
   std::size_t parts = 1;
   unsigned threads = 1;      // threads of each part; 0: as many as its machine has cores

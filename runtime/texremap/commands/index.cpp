@@ -26,10 +26,8 @@ struct IndexOptions {
 
 Listing listing_of_sets(const IndexOptions& options) {
   const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
-  DiscoveryOptions discovery;
-  discovery.naming = &naming;
   Listing listing;
-  listing.found = find_sets(options.folder, discovery);
+  listing.found = find_sets(options.folder, {}, naming);
   // Refuses the second of two sets whose names differ only in case, because parts would write the same file.
   WrittenNames names;
   std::erase_if(listing.found.sets, [&](const FoundSet& set) {

@@ -31,38 +31,25 @@ struct ListOptions {
   UsedConverters converters;
 };
 
-// A ListedConverter is a converter as a path of one step.
-struct ListedConverter {
-  const Converter& converter;
-  ConverterPath path;
-  std::optional<ConverterPath> closer;
-};
-
-ListedConverter listed(const ConverterGraph& graph, const Converter& converter) {
+// `path` is a path of one step.
+Json converter_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  const Converter& converter = *path.steps.front();
   const ConverterInfo& info = converter.info();
-  ConverterPath path{{&converter}, expected_error(info)};
-  auto closer =
-      closer_path(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
-  return {converter, std::move(path), std::move(closer)};
-}
-
-Json converter_json(const ListedConverter& entry) {
-  const ConverterInfo& info = entry.converter.info();
   Json json = {{"id", info.id},
                {"source", side_json(info.source)},
                {"target", side_json(info.target)},
                {"domain", domain_json(info)},
                {"rms_error", errors_json(info)},
                {"ssim", ssim_json(info)},
-               {"expected_error", entry.path.expected_error},
+               {"expected_error", path.expected_error},
                {"instructions", std::string(instruction_set_name(info.instructions))},
-               {"self_test", entry.converter.self_test()}};
-  json.update(pictures_json(entry.path, entry.closer));
+               {"self_test", converter.self_test()}};
+  json.update(pictures_json(path, closer));
   return json;
 }
 
-void print_converter(const ListedConverter& entry) {
-  const Converter& converter = entry.converter;
+void print_converter(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
+  const Converter& converter = *path.steps.front();
   const ConverterInfo& info = converter.info();
   std::cout << info.id << '\n'
             << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
@@ -70,8 +57,8 @@ void print_converter(const ListedConverter& entry) {
             << info.target.specular << '\n'
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
-  std::cout << "  note   " << difference_text(entry.path) << '\n';
-  if (entry.closer) std::cout << "  note   " << closer_text(*entry.closer) << '\n';
+  std::cout << "  note   " << difference_text(path) << '\n';
+  if (closer) std::cout << "  note   " << closer_text(*closer) << '\n';
 }
 
 void list_converters(const ListOptions& options) {
@@ -79,10 +66,14 @@ void list_converters(const ListOptions& options) {
   Json all = Json::list();
   std::string failed;
   for (const Converter* converter : graph.converters()) {
+    const ConverterInfo& info = converter->info();
+    const ConverterPath path{{converter}, expected_error(info)};
+    const auto closer =
+        closer_path(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
     if (options.json)
-      all.push_back(converter_json(listed(graph, *converter)));
+      all.push_back(converter_json(path, closer));
     else
-      print_converter(listed(graph, *converter));
+      print_converter(path, closer);
     if (!converter->self_test()) failed += (failed.empty() ? "" : ", ") + converter->info().id;
   }
   if (options.json) std::cout << all.dump(2) << '\n';

@@ -152,6 +152,7 @@ void plan(const PlanOptions& options) {
                    manifest.head.root,
                    whole(asked.output),
                    whole(options.folder),
+                   whole(options.folder) / "report.jsonl",
                    words_of_jobs(asked)};
   require_writable(options.kind, farm);
   const bool is_given = options.parts > 0 && options.minutes > 0 && options.memory_megabytes > 0;

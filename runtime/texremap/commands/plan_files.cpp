@@ -28,34 +28,22 @@ std::string log_line(const std::filesystem::path& folder, const std::string& nam
   return "#SBATCH --output=\"" + text + "/" + name + "\"\n";
 }
 
-// A PlannedPaths holds paths as a plan writes them: literally, or as parameters of a template.
-struct PlannedPaths {
-  std::string program, manifest, tree, output, report;
-};
-
-PlannedPaths paths_of(const PlannedFarm& farm) {
-  return {farm.program, farm.manifest.string(), farm.tree.string(), farm.output.string(),
-          (farm.folder / "report.jsonl").string()};
-}
-
 // Returns the command that converts a part. `part` is the value of --part.
-std::vector<std::string> convert_words(const PlannedFarm& farm, const PlannedPaths& paths,
-                                       const std::string& part) {
-  std::vector<std::string> words = {paths.program,  "convert", paths.tree, "--manifest",
-                                    paths.manifest, "--part",  part};
+std::vector<std::string> convert_words(const PlannedFarm& farm, const std::string& part) {
+  std::vector<std::string> words = {
+      farm.program, "convert", farm.tree.string(), "--manifest", farm.manifest.string(), "--part", part};
   words.insert(words.end(), farm.options.begin(), farm.options.end());
   for (const std::string& word :
-       {std::string("--threads"), std::to_string(farm.threads), std::string("-o"), paths.output})
+       {std::string("--threads"), std::to_string(farm.threads), std::string("-o"), farm.output.string()})
     words.push_back(word);
   return words;
 }
 
-std::vector<std::string> merge_words(const PlannedPaths& paths) {
-  return {paths.program, "merge-reports", paths.output, "-o", paths.report, "--force"};
+std::vector<std::string> merge_words(const PlannedFarm& farm) {
+  return {farm.program, "merge-reports", farm.output.string(), "-o", farm.report.string(), "--force"};
 }
 
 PlanFiles slurm_files(const PlannedFarm& farm) {
-  const PlannedPaths paths = paths_of(farm);
   const std::filesystem::path log = farm.folder / "log";
   const std::string threads = std::to_string(farm.threads);
   std::string convert = "#!/bin/sh\n#SBATCH --job-name=texremap\n#SBATCH --array=1-" +
@@ -65,7 +53,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "#SBATCH --mem=" + std::to_string(farm.memory_megabytes) +
       "M\n#SBATCH --time=" + std::to_string(farm.minutes) +
       "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n" + log_line(log, "%a.txt") + "\n" +
-      shell_line(convert_words(farm, paths, "auto/" + std::to_string(farm.parts))) +
+      shell_line(convert_words(farm, "auto/" + std::to_string(farm.parts))) +
       "\ncode=$?\n"
       "# 75: a full disk, or storage that did not answer. The part goes on where it ended.\n"
       "if [ \"$code\" = 75 ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt 3 ]; then\n"
@@ -73,7 +61,7 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "fi\n"
       "exit \"$code\"\n";
   const std::string merge = "#!/bin/sh\n#SBATCH --job-name=texremap-merge\n#SBATCH --ntasks=1\n" +
-                            log_line(log, "merge.txt") + "\n" + shell_line(merge_words(paths)) + "\n";
+                            log_line(log, "merge.txt") + "\n" + shell_line(merge_words(farm)) + "\n";
   // The script accepts numbers of parts to repeat, as in `submit.sh 3,17`.
   const std::string submit =
       "#!/bin/sh\n# Submits all parts, or the parts of its argument (3,17-19), and after them the merge.\n"
@@ -88,12 +76,10 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
 }
 
 PlanFiles commands_files(const PlannedFarm& farm) {
-  const PlannedPaths paths = paths_of(farm);
   std::string lines;
   for (std::size_t i = 1; i <= farm.parts; ++i)
-    lines +=
-        shell_line(convert_words(farm, paths, std::to_string(i) + "/" + std::to_string(farm.parts))) + "\n";
-  return {{{"commands.txt", lines}, {"merge.sh", "#!/bin/sh\n" + shell_line(merge_words(paths)) + "\n"}},
+    lines += shell_line(convert_words(farm, std::to_string(i) + "/" + std::to_string(farm.parts))) + "\n";
+  return {{{"commands.txt", lines}, {"merge.sh", "#!/bin/sh\n" + shell_line(merge_words(farm)) + "\n"}},
           "parallel --retries 3 < " + shell_word((farm.folder / "commands.txt").string()) + "; sh " +
               shell_word((farm.folder / "merge.sh").string())};
 }
@@ -127,8 +113,12 @@ Json script_json(const std::vector<std::string>& words) {
 }
 
 PlanFiles openjd_files(const PlannedFarm& farm) {
-  const PlannedPaths paths = {"{{Param.Program}}", "{{Param.Manifest}}", "{{Param.Tree}}", "{{Param.Output}}",
-                              "{{Param.Report}}"};
+  PlannedFarm shared = farm;  // with the parameters of the template instead of the paths
+  shared.program = "{{Param.Program}}";
+  shared.manifest = "{{Param.Manifest}}";
+  shared.tree = "{{Param.Tree}}";
+  shared.output = "{{Param.Output}}";
+  shared.report = "{{Param.Report}}";
   Json needs = {{"amounts", Json::list()}};
   if (farm.threads > 0) needs["amounts"].push_back({{"name", "amount.worker.vcpu"}, {"min", farm.threads}});
   needs["amounts"].push_back({{"name", "amount.worker.memory"}, {"min", farm.memory_megabytes}});
@@ -138,11 +128,10 @@ PlanFiles openjd_files(const PlannedFarm& farm) {
       {"parameterSpace",
        {{"taskParameterDefinitions",
          Json::list({{{"name", "Part"}, {"type", "INT"}, {"range", "1-" + std::to_string(farm.parts)}}})}}},
-      {"script",
-       script_json(convert_words(farm, paths, "{{Task.Param.Part}}/" + std::to_string(farm.parts)))}};
+      {"script", script_json(convert_words(shared, "{{Task.Param.Part}}/" + std::to_string(farm.parts)))}};
   const Json merge = {{"name", "Merge"},
                       {"dependencies", Json::list({{{"dependsOn", "Convert"}}})},
-                      {"script", script_json(merge_words(paths))}};
+                      {"script", script_json(merge_words(shared))}};
   const Json json = {{"specificationVersion", "jobtemplate-2023-09"},
                      {"name", "texremap"},
                      {"parameterDefinitions",
@@ -152,9 +141,10 @@ PlanFiles openjd_files(const PlannedFarm& farm) {
                                   path_parameter("Output", "DIRECTORY", "INOUT"),
                                   path_parameter("Report", "FILE", "OUT")})},
                      {"steps", Json::list({convert, merge})}};
-  const PlannedPaths own = paths_of(farm);
-  const Json values = {
-      {"Manifest", own.manifest}, {"Tree", own.tree}, {"Output", own.output}, {"Report", own.report}};
+  const Json values = {{"Manifest", farm.manifest.string()},
+                       {"Tree", farm.tree.string()},
+                       {"Output", farm.output.string()},
+                       {"Report", farm.report.string()}};
   return {{{"template.json", json.dump(2) + "\n"}, {"parameters.json", values.dump(2) + "\n"}},
           "openjd run " + shell_word((farm.folder / "template.json").string()) + " --job-param " +
               shell_word(file_uri(farm.folder / "parameters.json"))};

@@ -27,12 +27,7 @@ Reader<MapSource> map_source() {
           {}};
 }
 
-// A NamedWord is `NAME=VALUE`.
-struct NamedWord {
-  Parameter parameter;
-  std::string value;
-};
-NamedWord named_word(const std::string& option, const std::string& word) {
+ParameterWord<std::string> split_word(const std::string& option, const std::string& word) {
   const std::size_t sign = word.find('=');
   if (sign == std::string::npos || sign + 1 == word.size())
     throw usage_error(option + ": no value in '" + word + "' (write NAME=VALUE, such as coat_weight=0.5)");
@@ -63,18 +58,12 @@ Reader<RoughnessEncoding> map_encoding() {
   return reader;
 }
 
-Reader<InputWord> input_word() {
-  return {[](const std::string& option, const std::string& word) {
-            NamedWord named = named_word(option, word);
-            return InputWord{named.parameter, parameter_source(option, named.value)};
-          },
-          {}};
-}
-
-Reader<FactorWord> factor_word() {
-  return {[](const std::string& option, const std::string& word) {
-            NamedWord named = named_word(option, word);
-            return FactorWord{named.parameter, parse_factors(option, named.value)};
+// Returns a reader for `NAME=VALUE`, where `read` reads the value.
+template <typename Value>
+Reader<ParameterWord<Value>> parameter_word(Value (*read)(std::string_view option, std::string_view text)) {
+  return {[read](const std::string& option, const std::string& word) {
+            const auto [parameter, value] = split_word(option, word);
+            return ParameterWord<Value>{parameter, read(option, value)};
           },
           {}};
 }
@@ -133,7 +122,7 @@ double number_of(const std::string& option, const std::string& text, double high
 
 Reader<F0Choice> f0_choice() {
   return {[](const std::string& option, const std::string& word) -> F0Choice {
-            if (word == "estimate") return FromMaps{};
+            if (word == "estimate") return F0Source::kMaps;
             return number_of(option, word, 0.9, "0 to 0.9, or estimate");
           },
           {}};
@@ -289,7 +278,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--input NAME=MAP", options.inputs, input_word(),
+      .add_option("--input NAME=MAP", options.inputs, parameter_word(parameter_source),
                   "Another input of a whole material, such as coat_weight=coat.png or sheen_color=1,0.9,0.8; "
                   "repeatable (for --from or --to openpbr and standard-surface)")
       ->tag(kChangesResults | kNeedsTranslation);
@@ -451,7 +440,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
                   "100 for percent")
       ->tag(kChangesResults);
   command
-      .add_option("--factor NAME=NUMBERS", options.factors, factor_word(),
+      .add_option("--factor NAME=NUMBERS", options.factors, parameter_word(parse_factors),
                   "Multiply this input: roughness or glossiness before it is decoded, colors in linear light "
                   "by one number or three; repeatable")
       ->tag(kChangesResults | kNotWithDiffuseWarp);
@@ -541,12 +530,12 @@ int ConvertOptions::threads() const {
 void note_given(const Command& command, ConvertOptions& options) {
   options.given = command.given();
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
-  for (const InputWord& input : options.inputs) options.maps[input.parameter] = input.source;
+  for (const auto& [parameter, source] : options.inputs) options.maps[parameter] = source;
 }
 
 std::vector<float> ConvertOptions::factors_of(Parameter parameter) const {
-  const auto found = std::ranges::find(factors, parameter, &FactorWord::parameter);
-  return found == factors.end() ? std::vector<float>{} : found->factors;
+  const auto found = std::ranges::find(factors, parameter, &ParameterWord<std::vector<float>>::parameter);
+  return found == factors.end() ? std::vector<float>{} : found->value;
 }
 
 void add_convert_options(Command& command, ConvertOptions& options) {

@@ -50,20 +50,16 @@ struct ColorSpaceWord {
   Transfer transfer;
 };
 
-// An InputWord is `NAME=MAP` or `NAME=NUMBERS`.
-struct InputWord {
+// A ParameterWord is `NAME=VALUE`.
+template <typename Value>
+struct ParameterWord {
   Parameter parameter;
-  MapSource source;
-};
-// A FactorWord is `NAME=NUMBERS`.
-struct FactorWord {
-  Parameter parameter;
-  std::vector<float> factors;
+  Value value;
 };
 
-// An F0Choice is the source of the F0 of dielectrics.
-struct FromMaps {};
-using F0Choice = std::variant<std::monostate, double, FromMaps>;  // by default: the F0 of the model
+// An F0Choice is the F0 of dielectrics, or where it comes from.
+enum class F0Source { kModel, kMaps };
+using F0Choice = std::variant<F0Source, double>;  // by default: the F0 of the model
 
 // Returns a reader for a model in `--from` and `--to`.
 Reader<ModelName> model_name();
@@ -96,8 +92,8 @@ struct ConvertOptions {
   std::optional<MapSource> glossiness;  // also in `maps`, as roughness
   std::optional<MapSource> occlusion;
   std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
-  std::vector<InputWord> inputs;                        // also in `maps`
-  std::vector<FactorWord> factors;
+  std::vector<ParameterWord<MapSource>> inputs;         // also in `maps`
+  std::vector<ParameterWord<std::vector<float>>> factors;
   std::vector<std::string> prefer;  // choice among several maps of one parameter
   std::vector<ColorSpaceWord> color_spaces;
   std::filesystem::path names;

@@ -1,7 +1,7 @@
 #include "texremap/plan/asset_formats.hpp"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 #include "assets/gltf/gltf_asset.hpp"
 #include "assets/mtl/mtl_asset.hpp"
@@ -14,25 +14,17 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-enum class AssetKind { kGltf, kMtl, kObj };
-
-struct AssetFormat {
-  std::string_view extension;
-  AssetKind kind;
-};
-constexpr std::array<AssetFormat, 4> kAssetFormats = {{{".gltf", AssetKind::kGltf},
-                                                       {".glb", AssetKind::kGltf},
-                                                       {".mtl", AssetKind::kMtl},
-                                                       {".obj", AssetKind::kObj}}};
+enum class AssetKind { kGltf, kGlb, kMtl, kObj };
+constexpr NamedValues<AssetKind, 4> kExtensions = {{{AssetKind::kGltf, ".gltf"},
+                                                    {AssetKind::kGlb, ".glb"},
+                                                    {AssetKind::kMtl, ".mtl"},
+                                                    {AssetKind::kObj, ".obj"}}};
 
 std::string extension_of(const fs::path& path) { return lower(path.extension().string()); }
 
-const AssetFormat* format_of(const fs::path& path) {
-  const auto* found = std::ranges::find(kAssetFormats, extension_of(path), &AssetFormat::extension);
-  return found == kAssetFormats.end() ? nullptr : found;
+std::optional<AssetKind> kind_of_asset(const fs::path& path) {
+  return value_named(kExtensions, extension_of(path));
 }
-
-AssetKind kind_of_asset(const fs::path& path) { return format_of(path)->kind; }
 
 constexpr const char* kObjRemedy =
     " becomes a glTF file (use an output name *.glb or *.gltf, or give --format glb; to keep MTL, give the "
@@ -41,17 +33,17 @@ constexpr const char* kObjRemedy =
 
 }  // namespace
 
-bool is_asset_name(const fs::path& path) { return format_of(path) != nullptr; }
+bool is_asset_name(const fs::path& path) { return kind_of_asset(path).has_value(); }
 
 bool is_gltf_name(const fs::path& path) {
-  const AssetFormat* format = format_of(path);
-  return format != nullptr && format->kind == AssetKind::kGltf;
+  const std::optional<AssetKind> kind = kind_of_asset(path);
+  return kind == AssetKind::kGltf || kind == AssetKind::kGlb;
 }
 
 std::vector<std::string> asset_extensions(const std::string& format) {
   std::vector<std::string> extensions;
-  for (const AssetFormat& known : kAssetFormats)
-    if ((known.kind == AssetKind::kObj) != format.empty()) extensions.emplace_back(known.extension.substr(1));
+  for (const auto& [kind, extension] : kExtensions)
+    if ((kind == AssetKind::kObj) != format.empty()) extensions.emplace_back(extension.substr(1));
   return extensions;
 }
 
@@ -82,7 +74,7 @@ void require_format(const fs::path& input, const fs::path& output) {
 
 std::vector<AssetResource> resources_of_asset(const ByteSource& source, const fs::path& input,
                                               const AssetResources& resources) {
-  switch (kind_of_asset(input)) {
+  switch (*kind_of_asset(input)) {
     case AssetKind::kMtl:
       return mtl_resources(source, display_path(input), &resources);
     case AssetKind::kObj:
@@ -94,12 +86,12 @@ std::vector<AssetResource> resources_of_asset(const ByteSource& source, const fs
 
 AssetConversion convert_asset(const ByteSource& source, const fs::path& input, const fs::path& output,
                               const AssetOptions& options, const AssetResources& resources) {
-  switch (kind_of_asset(input)) {
+  switch (*kind_of_asset(input)) {
     case AssetKind::kMtl:
       return convert_mtl(source, display_path(input), options, &resources);
     case AssetKind::kObj:
       return gltf_of_obj(source, display_path(input), options, resources,
-                         {extension_of(output) == ".glb", output.stem().string()});
+                         extension_of(output) == ".glb" ? "" : output.stem().string() + ".bin");
     default:
       return convert_gltf(source, display_path(input), options, &resources);
   }

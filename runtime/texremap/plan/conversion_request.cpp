@@ -92,8 +92,8 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
           option + " " + plain_name(parameter) +
           ": has no effect, because the source material has no such input (remove this option)");
   };
-  for (const FactorWord& word : options.factors) refuse_input("--factor", word.parameter);
-  for (const InputWord& word : options.inputs) refuse_input("--input", word.parameter);
+  for (const auto& word : options.factors) refuse_input("--factor", word.parameter);
+  for (const auto& word : options.inputs) refuse_input("--input", word.parameter);
 }
 
 // Refuses options of folders if there is only one set, and maps that cannot be used with a folder.
@@ -196,7 +196,7 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
   return files;
 }
 
-CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
+CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::path& source) {
   const auto text = [](NormalGreen green) {
     return std::string(green == NormalGreen::kUp ? "OpenGL (green up)" : "DirectX (green down)");
   };
@@ -206,7 +206,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   const auto of_source = normals_of(options.from);
   const std::string from = "--from " + std::string(options.from.word());
   const std::optional<StatedGreen> stated = stated_green(source.filename().string());
-  CopiedNormals normals{{source, "", ""}, ""};
+  CopiedFile normals{source, "", ""};
   if (!wanted) {
     if (engine != nullptr) normals.reason = target + " reads both directions";
     return normals;
@@ -227,7 +227,7 @@ CopiedNormals copied_normals(const ConvertOptions& options, const std::filesyste
   std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
   std::error_code ignored;
   if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
-  normals.copy.turned_name = turned.replace_extension(written_extension(turned)).string();
+  normals.turned_name = turned.replace_extension(written_extension(turned)).string();
   normals.reason =
       (stated ? "its name" : from) + " means " + text(green) + ", but " + target + " reads " + text(*wanted);
   return normals;
@@ -254,20 +254,21 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 }  // namespace
 
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const WidthSource& source, RoughnessEncoding usual) {
+                                const TextureSet& set, RoughnessEncoding usual) {
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
   const RoughnessEncoding wanted = asked.value_or(usual);
   if (const auto held = choice.layout.width()) {
     if (*held == kGlossiness) return kGlossiness;
     return wanted == kGlossiness ? kRoughness : wanted;
   }
-  if (!choice.layout.keeps_names || source.file.empty()) return wanted;
-  const bool is_glossy = source.convention == kGlossiness;
+  const SetParameter* const map = set.map_of(Parameter::kRoughness);
+  if (!choice.layout.keeps_names || map == nullptr) return wanted;
+  const bool is_glossy = set.convention == kGlossiness;
   if (asked && is_glossy != (*asked == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
-                                       ": the result keeps the name " + source.file.filename().string() +
-                                       ", which means " + (is_glossy ? "glossiness" : "roughness") +
-                                       " (use --layout separate)");
+    throw Error(ErrorKind::kUsage,
+                "--output-encoding " + std::string(encoding_name(*asked)) + ": the result keeps the name " +
+                    set.maps[map->channels.front().map].path().filename().string() + ", which means " +
+                    (is_glossy ? "glossiness" : "roughness") + " (use --layout separate)");
   if (is_glossy) return kGlossiness;
   return wanted == kGlossiness ? kRoughness : wanted;
 }

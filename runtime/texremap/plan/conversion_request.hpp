@@ -20,14 +20,10 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
 std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // Returns the files to copy if the options name one set.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
-// A CopiedNormals is the copy of a normal map in a folder. The direction of green comes from the name of the
-// map, otherwise from the source model. If the target has the other direction, the copy has inverted green,
-// unless the folder already has a map with that direction.
-struct CopiedNormals {
-  CopiedFile copy;
-  std::string reason;  // why green is inverted, or kept although nothing is known; or empty
-};
-CopiedNormals copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
+// Returns the copy of a normal map in a folder. The direction of green comes from the name of the map,
+// otherwise from the source model. If the target has the other direction, the copy has inverted green, unless
+// the folder already has a map with that direction.
+CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::path& source);
 // Returns the file that an option gives for every set of a folder: the given path, or a path below the
 // folder. Returns nothing for a pattern and for a name in the folders of sets.
 std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
@@ -39,16 +35,11 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
 std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request);
 // Sets the parameters that a set's translation writes, and those that it keeps.
 void apply(const TranslationEffect& effect, TargetChoice& choice);
-// A WidthSource is the roughness of a set before the conversion.
-struct WidthSource {
-  std::filesystem::path file;                   // empty for a number
-  std::optional<RoughnessEncoding> convention;  // set if an option or the file name states it
-};
 // Returns the encoding of a set's roughness results: --output-encoding, or `usual` without this option. Names
 // stay true. A glossiness map that keeps its name stays glossiness, orm and arm hold roughness, and specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
 RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const WidthSource& source, RoughnessEncoding usual);
+                                const TextureSet& set, RoughnessEncoding usual);
 // Refuses --exponent-of-white for results without an exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 

@@ -144,7 +144,8 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
                   : parameter_option(parameter),
               asked);
   }
-  for (const CarriedRequest& carried : request.carried) require("--" + carried.name, carried.parameter);
+  for (const Carried<ParameterRequest>& carried : request.carried)
+    require("--" + carried.name, carried.parameter);
 }
 
 // Finds the sets of the manifest or the folder. Without either there are none.

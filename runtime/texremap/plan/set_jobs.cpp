@@ -55,7 +55,7 @@ std::vector<fs::path*> files_of(SetWork& set) {
     if (auto* map = std::get_if<MapName>(&parameter.source)) files.push_back(&map->file);
   };
   for (auto& [parameter, asked] : set.request.parameters) add(asked);
-  for (CarriedRequest& carried : set.request.carried) add(carried.parameter);
+  for (Carried<ParameterRequest>& carried : set.request.carried) add(carried.parameter);
   for (CopiedFile& copy : set.copies) files.push_back(&copy.source);
   return files;
 }
@@ -342,8 +342,9 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
       if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
       const std::string name(role_name(entry.role));
       const std::optional<fs::path> file = file_of(map, tile);
-      const bool is_named = std::any_of(request.carried.begin(), request.carried.end(),
-                                        [&](const CarriedRequest& carried) { return carried.name == name; });
+      const bool is_named =
+          std::any_of(request.carried.begin(), request.carried.end(),
+                      [&](const Carried<ParameterRequest>& carried) { return carried.name == name; });
       if (file && !is_named)
         request.carried.push_back(
             {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
@@ -388,9 +389,9 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
       work.copies.push_back({source, "", ""});
       continue;
     }
-    CopiedNormals normals = copied_normals(options_, source);
-    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals.copy);
-    work.copies.push_back(std::move(normals.copy));
+    CopiedFile normals = copied_normals(options_, source);
+    if (!normals.reason.empty()) normals_[normals.reason].push_back(normals);
+    work.copies.push_back(std::move(normals));
   }
 }
 
@@ -535,13 +536,12 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
 std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   if (options.folder.empty()) return std::nullopt;
   const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
-  DiscoveryOptions discovery;
-  discovery.recursive = options.recursive;
-  discovery.naming = &naming;
-  discovery.excluded = {options.output};
-  if (!options.diagnose.empty()) discovery.excluded.push_back(options.diagnose);
-  discovery.also = asset_extensions("");
-  Discovery found = find_sets(options.folder, discovery);
+  WalkOptions walk;
+  walk.recursive = options.recursive;
+  walk.excluded = {options.output};
+  if (!options.diagnose.empty()) walk.excluded.push_back(options.diagnose);
+  walk.also = asset_extensions("");
+  Discovery found = find_sets(options.folder, walk, naming);
   if (found.sets.empty() && found.problems.empty() && !found.others.empty())
     throw usage_error(display_path(options.folder) + ": no texture set found by file names, but " +
                       counted(found.others.size(), "asset") +

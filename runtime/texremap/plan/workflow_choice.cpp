@@ -65,7 +65,7 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   if (f0 != nullptr) request.dielectric_f0 = *f0;
   WorkflowChoice choice{choose_conversion(request, options.converters.graph()), {}};
   choice.f0_given = f0 != nullptr && choice.is_material();
-  choice.estimates_f0 = std::holds_alternative<FromMaps>(options.dielectric_f0) && choice.is_material();
+  choice.estimates_f0 = options.dielectric_f0 == F0Choice(F0Source::kMaps) && choice.is_material();
   if (choice.estimates_f0) require_estimable(choice);
   require_workflow(options, choice);
   return choice;

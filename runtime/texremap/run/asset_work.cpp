@@ -55,12 +55,12 @@ std::string inputs_hash_of(const FileSource& source, const AssetWork& asset,
   return hash.hex();
 }
 
-class AssetWorker final : public JobWorker {
+class AssetWorker {
  public:
   AssetWorker(const ConvertPlan& plan, OutputFolder& folder)
       : plan_(plan), options_(std::get<AssetOptions>(plan.work)), folder_(folder) {}
 
-  void run(const Job& job, const std::function<void(double)>&, JobReport& report) override {
+  void run(const Job& job, JobReport& report) {
     const Stopwatch stopwatch;
     const auto& asset = std::get<AssetWork>(job.work);
     const FileSource source(asset.input);
@@ -155,8 +155,11 @@ class AssetWorker final : public JobWorker {
 
 }  // namespace
 
-std::unique_ptr<JobWorker> asset_worker(const ConvertPlan& plan, OutputFolder& folder) {
-  return std::make_unique<AssetWorker>(plan, folder);
+JobWorker asset_worker(const ConvertPlan& plan, OutputFolder& folder) {
+  const auto worker = std::make_shared<AssetWorker>(plan, folder);
+  return [worker](const Job& job, const std::function<void(double)>&, JobReport& report) {
+    worker->run(job, report);
+  };
 }
 
 }  // namespace remap

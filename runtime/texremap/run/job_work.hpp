@@ -2,27 +2,23 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
 #include "texremap/run/job_report.hpp"
 #include "texremap/run/output_folder.hpp"
 
 namespace remap {
 
-class JobWorker {
- public:
-  virtual ~JobWorker() = default;
-  // Does the job, from many threads at once. It fills in `report`, even before it throws. `progress` receives
-  // the finished fraction, 0 to 1.
-  virtual void run(const Job& job, const std::function<void(double)>& progress, JobReport& report) = 0;
-};
+// A JobWorker does a job, from many threads at once. It fills in `report`, even before it throws. `progress`
+// receives the finished fraction, 0 to 1.
+using JobWorker =
+    std::function<void(const Job& job, const std::function<void(double)>& progress, JobReport& report)>;
 
 // Refuses --dither and --compression if sets were converted and no result can use them. Throws kUsage.
 void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports);
 
 // Makes a worker with `threads` for each job. `plan` and `folder` must outlive the worker.
-std::unique_ptr<JobWorker> set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads);
-std::unique_ptr<JobWorker> asset_worker(const ConvertPlan& plan, OutputFolder& folder);
+JobWorker set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads);
+JobWorker asset_worker(const ConvertPlan& plan, OutputFolder& folder);
 
 // Returns the sizes of files on disk. Missing files count as 0.
 std::uintmax_t size_of(const std::vector<std::filesystem::path>& files);

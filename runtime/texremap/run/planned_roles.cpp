@@ -83,7 +83,7 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
   for (const Parameter parameter : choice.parameters)
     if (!set.parameters.contains(parameter))
       roles.push_back({plain_name(parameter), "", "", "made", output_of(plan, parameter)});
-  for (const CarriedParameter& carried : set.carried) {
+  for (const Carried<SetParameter>& carried : set.carried) {
     const auto* place = carried.parameter.is_map() ? &carried.parameter.channels.front() : nullptr;
     roles.push_back({carried.name, input_of(set, carried.parameter), "", "carried",
                      outputs_of(plan, [&](const TargetChannel& channel) {

@@ -106,8 +106,8 @@ std::string place_of(const Job& job) {
 }
 
 // Does a job. If there are several, a failure becomes part of the report.
-JobReport report_of(JobWorker& worker, const OutputFolder& folder, const ConvertPlan& plan, const Job& job,
-                    const std::function<void(double)>& advance) {
+JobReport report_of(const JobWorker& worker, const OutputFolder& folder, const ConvertPlan& plan,
+                    const Job& job, const std::function<void(double)>& advance) {
   JobReport report;
   const auto run = [&] {
     report = JobReport::of(job);
@@ -115,7 +115,7 @@ JobReport report_of(JobWorker& worker, const OutputFolder& folder, const Convert
     if (!job.refusal.empty()) throw output_error(job.refusal);
     require_as_listed(job.listed);
     try {
-      worker.run(job, advance, report);
+      worker(job, advance, report);
     } catch (const std::bad_alloc&) {
       throw input_error((report.inputs.empty() ? place_of(job) : report.inputs.front().string()) +
                         ": out of memory (use fewer --threads)");
@@ -148,7 +148,7 @@ std::vector<JobReport> run_jobs(const ConvertPlan& plan,
   const int threads_a_job = static_cast<int>(threads / at_once);
   set_image_limits({threads_a_job, plan.memory_bytes / at_once});
   OutputFolder folder(plan);
-  const std::unique_ptr<JobWorker> worker =
+  const JobWorker worker =
       plan.sets() != nullptr ? set_worker(plan, folder, threads_a_job) : asset_worker(plan, folder);
   RunProgress line(plan);
   MergedReports reports(jobs, [&](const JobReport& report) {
@@ -163,7 +163,7 @@ std::vector<JobReport> run_jobs(const ConvertPlan& plan,
   apart.count = jobs.size();
   apart.at_once = static_cast<unsigned>(at_once);
   apart.work = [&](std::size_t i, const std::function<void(double)>& advance) {
-    return packed(report_of(*worker, folder, plan, jobs[i], advance));
+    return packed(report_of(worker, folder, plan, jobs[i], advance));
   };
   apart.advanced = [&](std::size_t i, double share) { line.advance(i, share); };
   apart.finished = [&](std::size_t i, std::string result) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "check/color_issue.hpp"
@@ -47,7 +48,7 @@ std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFi
     }
   };
   for (const auto& [parameter, asked] : set.request.parameters) add(plain_name(parameter), asked);
-  for (const CarriedRequest& carried : set.request.carried) add(carried.name, carried.parameter);
+  for (const Carried<ParameterRequest>& carried : set.request.carried) add(carried.name, carried.parameter);
   hash.add(set.request.convention ? encoding_name(*set.request.convention) : "");
   for (const auto& file : copied) hash.add_file(*file);
   return hash.hex();
@@ -83,12 +84,6 @@ std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
   for (const PlannedMap& map : plan.maps) files.push_back(map.path);
   for (const PlannedCopy& copy : plan.copies) files.push_back(copy.path);
   return files;
-}
-
-WidthSource width_source(const TextureSet& set) {
-  const SetParameter* map = set.map_of(Parameter::kRoughness);
-  if (map == nullptr) return {{}, set.convention};
-  return {set.maps[map->channels.front().map].path(), set.convention};
 }
 
 // Records the color spaces in which the set is read and written.
@@ -128,14 +123,14 @@ JobReport::Result result_of(const PlannedMap& planned) {
   return result;
 }
 
-class SetWorker final : public JobWorker {
+class SetWorker {
  public:
   SetWorker(const ConvertPlan& plan, OutputFolder& folder, int threads)
       : plan_(plan), sets_(*plan.sets()), chosen_(sets_.chosen), folder_(folder), pass_(sets_.pass) {
     pass_.thread_count = threads;
     pass_.cancelled = &interruption();
   }
-  void run(const Job& job, const std::function<void(double)>& progress, JobReport& report) override;
+  void run(const Job& job, const std::function<void(double)>& progress, JobReport& report);
 
  private:
   void commit(const Job& job, const TargetPlan& targets, const OpenFiles& files, const std::string& inputs,
@@ -225,7 +220,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   const auto packed = std::ranges::find_if(targets, has_constant);
   if (packed != targets.end() && sets_.targets.layout.file_with(Parameter::kMetallic) != nullptr) {
     const auto note = [&](const std::string& name, const std::string& value) {
-      const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
+      const auto has_name = [&](const Carried<SetParameter>& carried) { return carried.name == name; };
       if (sets_.targets.layout.has_place_for(name) && std::ranges::none_of(set.carried, has_name))
         report.warnings.push_back(packed->writer->path().string() + ": no " + name + " map; " + name +
                                   " is set to " + value);
@@ -240,27 +235,21 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// A FinishedCopies holds finished copies without a final name. Its destructor removes copies that never get
-// one.
-class FinishedCopies {
- public:
-  FinishedCopies() = default;
-  FinishedFile add(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source) {
-    if (copy.turns_green) return finished_file(*turned_.emplace_back(turned_copy(source, copy.path)));
-    NewFile& whole = *whole_.emplace_back(std::make_unique<NewFile>(copy.path));
-    add_copy(*source, whole);
-    whole.finish();
-    return finished_file(whole);
+// Makes a finished copy without a final name, and appends the function that gives it the name. The copy is
+// removed with this function if it never gets a name.
+FinishedFile finished_copy(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source,
+                           std::vector<std::function<void()>>& renames) {
+  if (copy.turns_green) {
+    const std::shared_ptr<NewImage> image = turned_copy(source, copy.path);
+    renames.push_back([image] { image->commit(Flush::kNo); });
+    return finished_file(*image);
   }
-  void commit() {
-    for (const auto& image : turned_) image->commit(Flush::kNo);
-    for (const auto& file : whole_) file->commit(Flush::kNo);
-  }
-
- private:
-  std::vector<std::unique_ptr<NewImage>> turned_;
-  std::vector<std::unique_ptr<NewFile>> whole_;
-};
+  const auto file = std::make_shared<NewFile>(copy.path);
+  renames.push_back([file] { file->commit(Flush::kNo); });
+  add_copy(*source, *file);
+  file->finish();
+  return finished_file(*file);
+}
 
 // Gives the finished results and copies of a set their final names.
 void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFiles& files,
@@ -268,12 +257,12 @@ void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFile
   folder_.begin(results_of(targets));
   std::vector<FinishedFile> results;
   for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
-  FinishedCopies copies;
+  std::vector<std::function<void()>> renames;
   for (const PlannedCopy& copy : targets.copies)
-    results.push_back(copies.add(copy, file_among(files, copy.source)));
+    results.push_back(finished_copy(copy, file_among(files, copy.source), renames));
   folder_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, [&] {
     for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
-    copies.commit();
+    for (const auto& rename : renames) rename();
   });
 }
 
@@ -303,8 +292,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
                         " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
-  const RoughnessEncoding width =
-      written_width(sets_.pass.target_convention, choice, width_source(set), usual_width(set));
+  const RoughnessEncoding width = written_width(sets_.pass.target_convention, choice, set, usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                           ? "exponent"
@@ -363,8 +351,11 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
 
 }  // namespace
 
-std::unique_ptr<JobWorker> set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads) {
-  return std::make_unique<SetWorker>(plan, folder, threads);
+JobWorker set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads) {
+  const auto worker = std::make_shared<SetWorker>(plan, folder, threads);
+  return [worker](const Job& job, const std::function<void(double)>& progress, JobReport& report) {
+    worker->run(job, progress, report);
+  };
 }
 
 void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports) {

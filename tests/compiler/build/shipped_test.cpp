@@ -19,6 +19,7 @@
 #include "support/campaign.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
+#include "table/split.hpp"
 
 using namespace remap;
 
@@ -132,9 +133,9 @@ TEST_CASE("shipped: fits without pictures follow the rows of their tables") {
     double largest = 0.0;
     for (const TableRow& row : table.rows)
       if (is_inside(row, fit.domain)) largest = std::max(largest, row.specular2);
-    const RowErrors errors = row_errors(fit, rows_inside(answer_rows(table), fit.domain));
-    CHECK(errors.alpha.rms <= 0.02);
-    CHECK(errors.specular.rms <= 0.02 * largest);
+    const Residuals residuals = residuals_of(rows_inside(answer_rows(table), fit.domain), fit);
+    CHECK(error_figures(residuals.alpha).rms <= 0.02);
+    CHECK(error_figures(residuals.specular).rms <= 0.02 * largest);
     CHECK(fit.alpha_error.rms <= 0.02);
     CHECK(fit.specular_error.rms <= 0.02 * largest);
   }

@@ -47,10 +47,10 @@ TEST_CASE("find sets: several in a folder and in a tree, in the order of their p
   CHECK(set_paths(found) == std::vector<std::string>{"a", "a/deep/er/y", "a/x", "b", "z/a"});
   CHECK(found.unrecognised == std::vector<fs::path>{"spectrum.png"});
   CHECK(found.problems.empty());
-  DiscoveryOptions flat;
+  WalkOptions flat;
   flat.recursive = false;
   CHECK(set_paths(session.find(flat)) == std::vector<std::string>{"a", "b"});
-  DiscoveryOptions excluding;
+  WalkOptions excluding;
   excluding.excluded = {session.root() / "z", session.root() / "a/../a/deep", session.root() / "none"};
   CHECK(set_paths(session.find(excluding)) == std::vector<std::string>{"a", "a/x", "b"});
 }

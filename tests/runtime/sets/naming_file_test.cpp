@@ -47,9 +47,7 @@ TEST_CASE("naming file: is used by a search for sets") {
     {"words": ["matt"], "role": "roughness"}, {"words": ["shine"], "role": "specular"}]}]})");
   CHECK(session.find().sets.empty());
   const Naming naming = read_naming(session.root() / "names.json");
-  DiscoveryOptions options;
-  options.naming = &naming;
-  const Discovery found = session.find(options);
+  const Discovery found = find_sets(session.root(), {}, naming);
   const FoundSet& set = set_at(found, "wall");
   CHECK(use_text(set, set.width) == "roughness of wall_matt.png");
   CHECK(use_text(set, set.specular) == "specular of wall_shine.png");

@@ -25,7 +25,7 @@ class SetSession {
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path).put('x');
   }
-  Discovery find(DiscoveryOptions options = {}) const { return find_sets(root(), options); }
+  Discovery find(const WalkOptions& options = {}) const { return find_sets(root(), options); }
 
  private:
   TemporaryFolder folder_;

@@ -48,7 +48,7 @@ Scene scene_of(const std::string& mtl, PlainResources resources = {}, const Asse
     if (line.starts_with("newmtl ")) obj += "usemtl " + line.substr(7) + "\nf 1/1 2/2 3/3\n";
   resources.files["a.mtl"] = mtl;
   Scene scene;
-  scene.conversion = gltf_of_obj(MemorySource(obj), "a.obj", options, resources, GltfOutput{false, "a"});
+  scene.conversion = gltf_of_obj(MemorySource(obj), "a.obj", options, resources, "a.bin");
   scene.json = std::make_unique<SpannedJson>(scene.conversion.text, "made");
   return scene;
 }
@@ -244,7 +244,7 @@ TEST_CASE("reports: an MTL file of the OBJ file's name is read if the one that i
   resources.files["a.mtl"] = "newmtl m\nKd .2 .4 .6\n";
   const auto converted = [&](const std::string& first) {
     return gltf_of_obj(MemorySource(first + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"), "dir/a.obj",
-                       {}, resources, GltfOutput{false, "a"});
+                       {}, resources, "a.bin");
   };
   for (const std::string line : {"mtllib renamed.mtl\n", ""}) {
     const AssetConversion scene = converted(line);

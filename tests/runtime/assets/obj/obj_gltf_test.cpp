@@ -227,8 +227,7 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   CHECK(scene.entry("materials", 0)["normalTexture"]["scale"].raw() == "0.5");
   // A .gltf refers to the files.
   resources.files["a.mtl"] = mtl;
-  const AssetConversion beside =
-      gltf_of_obj(MemorySource(obj), "file.obj", {}, resources, {false, "my mesh"});
+  const AssetConversion beside = gltf_of_obj(MemorySource(obj), "file.obj", {}, resources, "my mesh.bin");
   CHECK(beside.text.find("\"uri\":\"a%20b.png\"") != std::string::npos);
   CHECK(beside.text.find("\"uri\":\"my%20mesh.bin\"") != std::string::npos);
   REQUIRE(beside.resources.size() == 2);
