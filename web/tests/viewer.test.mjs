@@ -181,7 +181,7 @@ describe('a report', { skip }, () => {
       const b = read(image, 0, 0, image.width, image.height);
       return Math.sqrt(a.reduce((sum, value, i) => sum + (value - b[i]) ** 2, 0) / a.length) / 255;
     }, report.images[still]);
-    assert.ok(error < 0.02, `${error}`);
+    assert.ok(error < 0.04, `${error}`);  // both have noise
   }));
 
   test('shows still pictures without WebGL', () => opened(async (page) => {

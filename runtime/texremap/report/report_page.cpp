@@ -37,7 +37,7 @@ constexpr std::size_t kMostTexels = 2 * kLargestSide * kLargestSide;  // of one 
 constexpr int kStillSide = 192, kStillDirections = 96;                // of pictures without WebGL
 constexpr std::size_t kLargestPng = 256 * 1024;                       // a larger image becomes JPEG
 constexpr int kLightRows = 128;                                       // of the light that the viewer reads
-constexpr int kJpegQuality = 92;
+constexpr int kJpegQuality = 85;
 
 // These are the images of a page: data URIs by a hash of their bytes, so that equal ones are there once.
 using PageImages = std::map<std::string, std::string>;
