@@ -55,7 +55,7 @@ test('files too large for memory are refused by name, with a remedy', () => {
 const library = ['convert', 'library', '--recursive', '--from', 'mitsuba/ward', '--to', 'mitsuba/as', '--roughness-encoding', 'roughness', '-o', 'out'];
 
 test('the processor time is that of node', () => {
-  const done = runOwn([...library, '--json'], copyOfInputs());
+  const done = runOwn([...library, '--json', '--verbose'], copyOfInputs());
   const seconds = Number(/([0-9.]+) s of processor time/.exec(done.stderr)[1]);
   assert.ok(seconds > 0 && seconds < 3, done.stderr);
 });
