@@ -34,57 +34,47 @@ double smith_shadowing(Brdf brdf, double alpha, double cos_direction) {
   return brdf_text::beckmann_shadowing(alpha, cos_direction);
 }
 
-double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& g) {
+namespace {
+
+// A NamedLobe is a function of brdf.glsl with its name.
+struct NamedLobe {
+  const char* name;
+  double (*shape)(double alpha, LocalGeometry g);
+};
+
+NamedLobe lobe_of(Brdf brdf) {
   switch (brdf) {
     case Brdf::kWard:
-      return brdf_text::ward(alpha, g);
+      return {"ward", brdf_text::ward};
     case Brdf::kWardDuer:
-      return brdf_text::ward_duer(alpha, g);
+      return {"ward_duer", brdf_text::ward_duer};
     case Brdf::kWardBalanced:
-      return brdf_text::ward_balanced(alpha, g);
+      return {"ward_balanced", brdf_text::ward_balanced};
     case Brdf::kPhong:
-      return brdf_text::phong(alpha, g);
+      return {"phong", brdf_text::phong};
     case Brdf::kBlinn:
-      return brdf_text::blinn(alpha, g);
+      return {"blinn", brdf_text::blinn};
     case Brdf::kPlainPhong:
-      return brdf_text::plain_phong(alpha, g);
+      return {"plain_phong", brdf_text::plain_phong};
     case Brdf::kPlainBlinn:
-      return brdf_text::plain_blinn(alpha, g);
+      return {"plain_blinn", brdf_text::plain_blinn};
     case Brdf::kBeckmann:
-      return brdf_text::beckmann(alpha, g);
+      return {"beckmann", brdf_text::beckmann};
     case Brdf::kGgx:
-      return brdf_text::ggx(alpha, g);
+      return {"ggx", brdf_text::ggx};
     case Brdf::kAs:
-      return brdf_text::ashikhmin_shirley(alpha, g);
+      return {"ashikhmin_shirley", brdf_text::ashikhmin_shirley};
   }
-  return 0.0;
+  return {"ggx", brdf_text::ggx};
 }
 
-const char* glsl_name(Brdf brdf) {
-  switch (brdf) {
-    case Brdf::kWard:
-      return "ward";
-    case Brdf::kWardDuer:
-      return "ward_duer";
-    case Brdf::kWardBalanced:
-      return "ward_balanced";
-    case Brdf::kPhong:
-      return "phong";
-    case Brdf::kBlinn:
-      return "blinn";
-    case Brdf::kPlainPhong:
-      return "plain_phong";
-    case Brdf::kPlainBlinn:
-      return "plain_blinn";
-    case Brdf::kBeckmann:
-      return "beckmann";
-    case Brdf::kGgx:
-      return "ggx";
-    case Brdf::kAs:
-      return "ashikhmin_shirley";
-  }
-  return "ggx";
+}  // namespace
+
+double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& g) {
+  return lobe_of(brdf).shape(alpha, g);
 }
+
+const char* glsl_name(Brdf brdf) { return lobe_of(brdf).name; }
 
 double schlick_weight(double cosine) { return brdf_text::schlick_weight(cosine); }
 

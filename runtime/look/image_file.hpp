@@ -1,4 +1,4 @@
-// This file reads and writes the compiler's pictures.
+// This file reads and writes pictures as files.
 #pragma once
 
 #include <filesystem>

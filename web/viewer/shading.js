@@ -70,6 +70,7 @@ export class Shading {
   #gl;
   #programs = new Map();  // by the name of the BRDF
   #light;
+  #display;  // the program that shows the means
   #sides = [];  // { look, textures, frames: two textures, count }
   #key = '';  // what the frames were drawn with
   #request = 0;
@@ -84,7 +85,7 @@ export class Shading {
     if (!gl || !gl.getExtension('EXT_color_buffer_float')) throw new Error('this browser has no WebGL 2 with floats');
     this.#gl = gl;
     this.#light = this.#lightTexture(light);
-    this.display = this.#program(DISPLAY);
+    this.#display = this.#program(DISPLAY);
   }
 
   #program(fragment) {
@@ -224,12 +225,12 @@ export class Shading {
 
   #present({ exposure, wipe }) {
     const gl = this.#gl;
-    gl.useProgram(this.display.program);
+    gl.useProgram(this.#display.program);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     [this.#sides[0], this.#sides.at(-1)].forEach(({ frames, count }, i) =>
-      this.#bind(this.display, i === 0 ? 'left' : 'right', i, frames[(count + 1) % 2].texture));
-    gl.uniform1f(this.display.place('exposure'), 2 ** exposure);
-    gl.uniform1f(this.display.place('border'), Math.round(gl.canvas.width * wipe));
+      this.#bind(this.#display, i === 0 ? 'left' : 'right', i, frames[(count + 1) % 2].texture));
+    gl.uniform1f(this.#display.place('exposure'), 2 ** exposure);
+    gl.uniform1f(this.#display.place('border'), Math.round(gl.canvas.width * wipe));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 

@@ -168,22 +168,19 @@ Json light_json(const Image& map) {
   return {{"width", map.width}, {"height", map.height}, {"rgbe", base64(bytes)}};
 }
 
-std::string filled(std::string text, const std::map<std::string, std::string>& values) {
+// Returns `text` with each `%NAME%` replaced. Values are not searched, because they may hold names of files.
+std::string filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
   std::string result;
-  for (std::size_t begin = 0;;) {
-    const std::size_t percent = text.find('%', begin), end = text.find('%', percent + 1);
-    const auto value = values.find(percent == std::string::npos || end == std::string::npos
-                                       ? ""
-                                       : text.substr(percent + 1, end - percent - 1));
-    if (percent == std::string::npos) return result + text.substr(begin);
-    if (value == values.end()) {
-      result += text.substr(begin, percent + 1 - begin);
-      begin = percent + 1;
-      continue;
-    }
-    result += text.substr(begin, percent - begin) + value->second;
-    begin = end + 1;
+  while (!text.empty()) {
+    const std::size_t begin = text.find('%'), end = begin == text.npos ? begin : text.find('%', begin + 1);
+    if (end == text.npos) break;
+    const auto value = values.find(text.substr(begin + 1, end - begin - 1));
+    const bool is_known = value != values.end();
+    result += text.substr(0, is_known ? begin : begin + 1);
+    if (is_known) result += value->second;
+    text.remove_prefix(is_known ? end + 1 : begin + 1);
   }
+  return result += text;
 }
 
 std::string escaped(const std::string& text) {
@@ -248,11 +245,11 @@ class ReportPage {
     json_["light"] = light_json(environment_.map);
     json_["notes"] = notes;
     for (const auto& [key, url] : images_) json_["images"][key] = url;
-    return filled(std::string(kReportHtml), {{"TITLE", escaped(title())},
-                                             {"VERSION", std::string(kProgram) + " " + kVersion},
-                                             {"STYLE", std::string(kViewerStyle)},
-                                             {"SCRIPT", std::string(kViewerScript)},
-                                             {"DATA", script_text(json_)}});
+    return filled(kReportHtml, {{"TITLE", escaped(title())},
+                                {"VERSION", std::string(kProgram) + " " + kVersion},
+                                {"STYLE", std::string(kViewerStyle)},
+                                {"SCRIPT", std::string(kViewerScript)},
+                                {"DATA", script_text(json_)}});
   }
 
  private:
