@@ -146,6 +146,7 @@ describe('a report', { skip }, () => {
     for (const slider of ['#wipe', '#light', '#zoom', '#exposure']) {
       await page.focus(slider);
       for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowRight');
+      await finished(page);  // a frame waits for the one before it
       pictures.push(await picture());
     }
     for (const [select, value] of [['#right', '1'], ['#object', '1']]) {
