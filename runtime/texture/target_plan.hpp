@@ -54,6 +54,7 @@ struct ResultNames {
 };
 
 struct TargetChoice {
+  MapTreatment treatment;  // its encoding of roughness is the one that the user chose
   std::filesystem::path folder;
   std::vector<Parameter> parameters = {Parameter::kRoughness, Parameter::kSpecular};  // parameters to write
   std::string width_name = "roughness";           // name of a separate roughness file

@@ -61,6 +61,23 @@ std::string closest_text(const std::string& model) {
   return model + " is the closest model of " + renderer_of(model);
 }
 
+std::string conventions_text(const WorkflowEnd& end) {
+  std::string text = "diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+  if (const auto* metallic = std::get_if<MetallicWorkflow>(&end))
+    text += ", dielectric F0 " + number_text(metallic->dielectric_f0);
+  return text;
+}
+
+std::string converter_ids(const BuiltConversion& chosen) {
+  std::string ids;
+  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
+  if (chosen.choice.translation) return chosen.info().id;
+  if (!chosen.choice.is_material()) return ids;
+  return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" + conventions_text(*chosen.choice.source) +
+         "; " + conventions_text(*chosen.choice.target) +
+         (chosen.choice.finds_metallic() ? "; projection)" : ")");
+}
+
 Json path_json(const ConverterPath& path) {
   Json ids = Json::list();
   for (const Converter* step : path.steps) ids.push_back(step->info().id);

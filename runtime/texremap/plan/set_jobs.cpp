@@ -81,7 +81,7 @@ FoundSet of_diffuse_alone(FoundSet set) {
 // Turns a folder of sets into jobs.
 class SetJobs {
  public:
-  SetJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults,
+  SetJobs(const ConvertOptions& options, const ConversionChoice& workflow, const TextureSetRequest& defaults,
           Discovery found)
       : options_(options),
         workflow_(workflow),
@@ -127,7 +127,7 @@ class SetJobs {
   std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
 
   const ConvertOptions& options_;
-  const WorkflowChoice& workflow_;
+  const ConversionChoice& workflow_;
   TargetChoice choice_;
   const TextureSetRequest& defaults_;  // values for missing maps, and factors for all sets
   fs::path root_;
@@ -550,7 +550,7 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   return found;
 }
 
-JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+JobList set_jobs(const ConvertOptions& options, const ConversionChoice& workflow,
                  const TextureSetRequest& request, std::optional<Discovery> sets) {
   if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
   SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};

@@ -40,7 +40,7 @@ std::string bytes_of(const AssetConversion& conversion, const ByteSource& source
   return bytes;
 }
 
-bool has_same_parameters(const WorkflowChoice& workflow) {
+bool has_same_parameters(const ConversionChoice& workflow) {
   const auto &source = workflow.source, &target = workflow.target;
   return source.has_value() == target.has_value() && (!source || kind_of(*source) == kind_of(*target));
 }
@@ -49,7 +49,7 @@ bool has_same_parameters(const WorkflowChoice& workflow) {
 
 JobLooks::JobLooks(const ConvertPlan& plan) : plan_(plan) {
   if (plan.sets() == nullptr) return;
-  const WorkflowChoice& workflow = plan.sets()->chosen.workflow;
+  const ConversionChoice& workflow = plan.sets()->chosen.choice;
   const ConverterGraph graph = shipped_graph();
   ends_.emplace(ShownEnds{ShownModel(workflow.source_brdf, graph), ShownModel(workflow.target_brdf, graph)});
   const auto note = [&](const std::string& model, const ShownModel& shown) {
@@ -70,8 +70,8 @@ std::vector<MaterialLooks> JobLooks::of(const Job& job, int side, std::size_t mo
 }
 
 MaterialLooks JobLooks::of_set(const Job& job, int side) const {
-  const ChosenConverter& chosen = plan_.sets()->chosen;
-  const WorkflowChoice& workflow = chosen.workflow;
+  const BuiltConversion& chosen = plan_.sets()->chosen;
+  const ConversionChoice& workflow = chosen.choice;
   TextureSet set = open_texture_set(std::get<SetWork>(job.work).request);
   MaterialLooks looks;
   looks.name = job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());

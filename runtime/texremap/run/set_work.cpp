@@ -54,7 +54,7 @@ std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFi
   return hash.hex();
 }
 
-Metadata metadata_of(const ChosenConverter& chosen) {
+Metadata metadata_of(const BuiltConversion& chosen) {
   const ConverterInfo& info = chosen.info();
   return {{"remap:converter", converter_ids(chosen)},
           {"remap:source", info.source.model},
@@ -63,9 +63,9 @@ Metadata metadata_of(const ChosenConverter& chosen) {
 }
 
 // Refuses maps that were converted before to another model than the source of this conversion.
-void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, JournalLookup& journals) {
+void require_not_converted(const TextureSet& set, const BuiltConversion& chosen, JournalLookup& journals) {
   const std::string& source = chosen.info().source.model;
-  const WorkflowChoice& workflow = chosen.workflow;
+  const ConversionChoice& workflow = chosen.choice;
   const WorkflowEnd end = workflow.is_material()
                               ? *workflow.source
                               : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
@@ -126,7 +126,11 @@ JobReport::Result result_of(const PlannedMap& planned) {
 class SetWorker {
  public:
   SetWorker(const ConvertPlan& plan, OutputFolder& folder, int threads)
-      : plan_(plan), sets_(*plan.sets()), chosen_(sets_.chosen), folder_(folder), pass_(sets_.pass) {
+      : plan_(plan),
+        sets_(*plan.sets()),
+        chosen_(sets_.chosen),
+        folder_(folder),
+        pass_{sets_.targets.treatment} {
     pass_.thread_count = threads;
     pass_.cancelled = &interruption();
   }
@@ -140,13 +144,13 @@ class SetWorker {
   // Returns the encoding of roughness results if neither a name nor an option gives it. With a workflow, it
   // is the target model's. Otherwise, it is the encoding of the inputs if known, or else the target model's.
   RoughnessEncoding usual_width(const TextureSet& set) const {
-    if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
+    if (chosen_.choice.is_material()) return width_of(*chosen_.choice.target);
     return set.convention.value_or(chosen_.info().target.roughness);
   }
 
   const ConvertPlan& plan_;
   const SetPlan& sets_;
-  const ChosenConverter& chosen_;
+  const BuiltConversion& chosen_;
   OutputFolder& folder_;
   PassOptions pass_;
   JournalLookup journals_;  // journals of the inputs
@@ -174,15 +178,16 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
 // Samples the maps of a workflow and adds warnings. Returns a converter only for this set if its dielectric
 // F0 is estimated from the maps.
 std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report) const {
-  const WorkflowChoice& workflow = chosen_.workflow;
+  const ConversionChoice& workflow = chosen_.choice;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
   note_colors(sample, set, report);
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
-  WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
+  WorkflowStages stages = stages_of(chosen_.choice, chosen_.brdf);
   const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
-  if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
-  if (!workflow.estimates_f0) return nullptr;
+  if (!std::holds_alternative<double>(sets_.dielectric_f0))
+    report.estimated_f0 = estimated_f0(sample, stages, width);
+  if (sets_.dielectric_f0 != F0Choice(F0Source::kMaps)) return nullptr;
   if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
     report.warnings.push_back(report.inputs.front().string() +
                               ": too few texels to estimate the dielectric F0; the default is used "
@@ -226,7 +231,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
                                   " is set to " + value);
     };
     note("occlusion", "1");
-    if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
+    if (!chosen_.choice.is_to_metallic()) note("metallic", "0");
   }
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer->layout().lossy_compression; !lossy.empty())
@@ -292,7 +297,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
                         " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
-  const RoughnessEncoding width = written_width(sets_.pass.target_convention, choice, set, usual_width(set));
+  const RoughnessEncoding width = written_width(choice, set, usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                           ? "exponent"
@@ -365,7 +370,7 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
     return std::ranges::any_of(reports, [&](const JobReport& report) { return report.*has; });
   };
   if (std::ranges::none_of(reports, converted)) return;
-  if (plan.sets()->pass.dither && !some(&JobReport::has_8_bits))
+  if (plan.sets()->targets.treatment.dither && !some(&JobReport::has_8_bits))
     throw usage_error("--dither: has no effect, because no result has 8 bits (remove this option)");
   if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
     throw usage_error(
