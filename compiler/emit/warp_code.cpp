@@ -41,17 +41,15 @@ std::string width_text(const PackedWarp& warp) {
   return "{" + list_text(numbers, 4) + "}";
 }
 
-Part part_of(const PackedWarp& warp, const PackedSeparable& terms) {
-  return {"separable", array_text("float", "kDiffuse", terms.diffuse, 4) +
-                           array_text("float", "kWidthNodes", terms.width_nodes, 16) +
+Part coordinates_of(const PackedWarp& warp) {
+  if (!warp.is_separable())
+    return {"quadratic", array_text("float", "kWeights", warp.weights, 8) +
+                             "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
+                             width_text(warp) + "};\n"};
+  return {"separable", array_text("float", "kDiffuse", warp.diffuse, 4) +
+                           array_text("float", "kWidthNodes", warp.width_nodes, 16) +
                            "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
-                           std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n"};
-}
-
-Part part_of(const PackedWarp& warp, const PackedQuadratic& terms) {
-  return {"quadratic", array_text("float", "kWeights", terms.weights, 8) +
-                           "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
-                           width_text(warp) + "};\n"};
+                           std::to_string(warp.last_width) + ", " + width_text(warp) + "};\n"};
 }
 
 std::string grid_text(const PackedWarp& warp) {
@@ -96,9 +94,8 @@ inline CopiedView<kDimension> table() noexcept {
 )";
 
 Part part_of(const PackedWarp& warp, const CopiedNodes& entries) {
-  const std::vector<float>& palette = std::get<PackedCopied>(warp.table).palette;
   return {"copied", fill_template(kCopiedTable,
-                                  {{"palette", array_text("float", "kPalette", palette, 7)},
+                                  {{"palette", array_text("float", "kPalette", warp.palette, 7)},
                                    {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
                                    {"grid", grid_text(warp)}})};
 }
@@ -107,8 +104,8 @@ Part part_of(const PackedWarp& warp, const CopiedNodes& entries) {
 
 MaterialCode material_code(const WarpHeader& header) {
   const PackedWarp& warp = header.warp;
-  const auto part = [&](const auto& kind) { return part_of(warp, kind); };
-  const Part coordinates = std::visit(part, warp.coordinates), table = std::visit(part, header.entries);
+  const Part coordinates = coordinates_of(warp);
+  const Part table = std::visit([&](const auto& entries) { return part_of(warp, entries); }, header.entries);
   const std::string dimension = std::to_string(warp.dimension);
   MaterialCode code;
   code.formula = kWarpKind;

@@ -205,7 +205,8 @@ CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::
   const auto wanted = engine != nullptr ? engine->normals : normals_of(options.to);
   const auto of_source = normals_of(options.from);
   const std::string from = "--from " + std::string(options.from.word());
-  const std::optional<StatedGreen> stated = stated_green(source.filename().string());
+  const std::string name = source.filename().string();
+  const std::optional<NormalGreen> stated = stated_green(name);
   CopiedFile normals{source, "", ""};
   if (!wanted) {
     if (engine != nullptr) normals.reason = target + " reads both directions";
@@ -217,14 +218,14 @@ CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::
                      " (add GL or DX to the name, such as wood_NormalGL.png)";
     return normals;
   }
-  const NormalGreen green = stated ? stated->green : *of_source;
+  const NormalGreen green = stated ? *stated : *of_source;
   if (green == *wanted) {
     if (of_source && *of_source != green)
       normals.reason = "its name means " + text(green) + ", which " + target + " reads (maps of " + from +
                        " are " + text(*of_source) + ")";
     return normals;
   }
-  std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
+  std::filesystem::path turned = turned_name(name);
   std::error_code ignored;
   if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
   normals.turned_name = turned.replace_extension(written_extension(turned)).string();

@@ -95,8 +95,7 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   if (options.manifest.empty()) return std::nullopt;
   if (!options.names.empty())
     throw usage_error("--names cannot be used with --manifest (give --names to texremap index instead)");
-  const Part all;
-  TreeManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  TreeManifest manifest = read_manifest(options.manifest, options.part.value_or(Part()));
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
@@ -159,7 +158,7 @@ void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets)
 void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
   std::optional<Discovery> found;
   choose_files(options);
-  if (manifest) found = std::move(manifest->listing.found);
+  if (manifest) found = std::move(manifest->found);
   std::string inferred;
   if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
     if (options.part)
@@ -278,7 +277,7 @@ AssetOptions asset_options(const ConvertOptions& options) {
 void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest,
                  ConvertPlan& plan) {
   require_asset_options(options);
-  plan.list = asset_jobs(options, manifest ? &manifest->listing : nullptr);
+  plan.list = asset_jobs(options, manifest ? &*manifest : nullptr);
   require_gltf(options, plan.list);
   plan.work = asset_options(options);
   plan.conversion =

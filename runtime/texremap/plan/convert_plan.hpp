@@ -42,7 +42,7 @@ struct ConvertPlan {
   std::string command;           // the command line, as text
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // memory for images, in all threads
-  std::optional<GivenPart> part;   // part of the manifest
+  std::optional<Part> part;        // part of the manifest
   ManifestHead manifest;
 
   std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions

@@ -29,7 +29,7 @@ std::string difference_text(const ConverterPath& path) {
     return std::string("both models have the same lobe, so that ") +
            (is_equal ? "numbers are copied" : "only the encoding of roughness changes");
   }
-  const std::optional<PathDifference> difference = picture_difference(path);
+  const std::optional<PictureDifference> difference = picture_difference(path);
   if (!difference) return "nobody has compared pictures";
   return std::string("rendered pictures differ by ") + (difference->is_estimate ? "about " : "") +
          percent_text(difference->converted) +
@@ -44,7 +44,7 @@ std::string models_text(const ConverterPath& path) {
 
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   if (path.steps.empty()) return "";
-  const std::optional<PathDifference> difference = picture_difference(path);
+  const std::optional<PictureDifference> difference = picture_difference(path);
   const bool is_told = is_copy(path) || (difference && difference->converted >= 100.0 * kVisible);
   if (!is_told && !closer) return "";
   std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";

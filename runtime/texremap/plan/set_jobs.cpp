@@ -23,14 +23,13 @@ namespace {
 // Returns the file of `map` for a tile, or nothing if it is missing. A map without tiles serves every tile.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;
-  for (const Tile& candidate : map.tiles)
-    if (candidate.number == tile) return candidate.path;
-  return std::nullopt;
+  const auto found = map.tiles.find(tile);
+  return found == map.tiles.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::vector<fs::path> files_of(const FoundMap& map) {
   std::vector<fs::path> files;
-  for (const Tile& tile : map.tiles) files.push_back(tile.path);
+  for (const auto& [number, file] : map.tiles) files.push_back(file);
   if (files.empty()) files.push_back(map.path);
   return files;
 }
@@ -40,7 +39,7 @@ std::vector<int> tiles_of(const FoundSet& set) {
   const auto add = [&](bool all) {
     for (const FoundMap& map : set.maps)
       if (map.is_converted || all)
-        for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+        for (const auto& [number, file] : map.tiles) numbers.insert(number);
   };
   add(false);
   if (numbers.empty()) add(true);
@@ -508,10 +507,10 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
   if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
   std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
   for (std::size_t i = 0; i < tiled.size(); ++i) {
-    const std::vector<Tile> own = existing_tiles(tiled[i].file);
+    const Tiles own = existing_tiles(tiled[i].file);
     if (own.empty())
       throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
-    for (const Tile& tile : own) tiles[tile.number].insert(i);
+    for (const auto& [number, file] : own) tiles[number].insert(i);
   }
   for (const auto& [number, present] : tiles) {
     SetWork set = whole_set;

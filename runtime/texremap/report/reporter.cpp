@@ -171,7 +171,7 @@ void Reporter::finish(std::vector<JobReport> reports) {
     if (plan_.list.has_several) print_summary(outcome, warnings_);
   }
   write({{"summary", summary_json(outcome)}});
-  if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, plan_.part->part, lines_);
+  if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, *plan_.part, lines_);
   require_success(outcome);
 }
 

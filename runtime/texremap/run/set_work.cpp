@@ -81,8 +81,8 @@ void require_not_converted(const TextureSet& set, const BuiltConversion& chosen,
 
 std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
   std::vector<std::filesystem::path> files;
-  for (const PlannedMap& map : plan.maps) files.push_back(map.path);
-  for (const PlannedCopy& copy : plan.copies) files.push_back(copy.path);
+  for (const PlannedFile& map : plan.maps) files.push_back(map.path);
+  for (const PlannedFile& copy : plan.copies) files.push_back(copy.path);
   return files;
 }
 
@@ -112,7 +112,7 @@ void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, J
     }
 }
 
-JobReport::Result result_of(const PlannedMap& planned) {
+JobReport::Result result_of(const PlannedFile& planned) {
   JobReport::Result result{planned.path, {}, false};
   for (const TargetPart& part : planned.parts)
     for (const TargetChannel& channel : part.channels) {
@@ -164,7 +164,7 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
   for (const auto& [parameter, role] : kColors) {
     const SetParameter* const map = set.map_of(parameter);
     if (map == nullptr) continue;
-    const auto issue = color_issue(role, map->transfer, sample.rows.at(parameter));
+    const auto issue = color_issue(role, map->transfer, sample.at(parameter));
     if (!issue) continue;
     std::string text = set.maps[map->channels.front().map].path().string() + ": " + plain_name(parameter) +
                        ", " + issue->text;
@@ -242,7 +242,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
 
 // Makes a finished copy without a final name, and appends the function that gives it the name. The copy is
 // removed with this function if it never gets a name.
-FinishedFile finished_copy(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source,
+FinishedFile finished_copy(const PlannedFile& copy, const std::shared_ptr<const InputFile>& source,
                            std::vector<std::function<void()>>& renames) {
   if (copy.turns_green) {
     const std::shared_ptr<NewImage> image = turned_copy(source, copy.path);
@@ -263,7 +263,7 @@ void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFile
   std::vector<FinishedFile> results;
   for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
   std::vector<std::function<void()>> renames;
-  for (const PlannedCopy& copy : targets.copies)
+  for (const PlannedFile& copy : targets.copies)
     results.push_back(finished_copy(copy, file_among(files, copy.source), renames));
   folder_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, [&] {
     for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
@@ -307,12 +307,12 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     std::erase(choice.unchanged, Parameter::kRoughness);
   const TargetPlan targets = plan_targets(set, choice);
   if (is_exponent && !sets_.scales_exponents) require_target_scale(set, targets);
-  for (const PlannedMap& map : targets.maps) report.results.push_back(result_of(map));
-  for (const PlannedCopy& copy : targets.copies)
+  for (const PlannedFile& map : targets.maps) report.results.push_back(result_of(map));
+  for (const PlannedFile& copy : targets.copies)
     if (copy.parts.empty())
       report.copies.push_back(copy.path);
     else
-      report.results.push_back(result_of({copy.path, copy.parts}));
+      report.results.push_back(result_of(copy));
   const std::vector<std::filesystem::path> results = results_of(targets);
   for (const std::filesystem::path& file : results) folder_.take(file, job.owner);
   report.warnings = work.notes;

@@ -32,11 +32,11 @@ Environment constant_environment(float radiance) {
 }
 
 // Returns an environment whose only light comes from a cap of 10 degrees around a direction.
-Environment cap_environment(const Direction& middle) {
+Environment cap_environment(const Vector3& middle) {
   Environment environment{"cap", {128, 64, 3, {}}};
   for (int row = 0; row < 64; ++row)
     for (int column = 0; column < 128; ++column) {
-      const Direction w = map_direction({(column + 0.5) / 128.0, (row + 0.5) / 64.0});
+      const Vector3 w = map_direction({(column + 0.5) / 128.0, (row + 0.5) / 64.0});
       const bool lit = w.x * middle.x + w.y * middle.y + w.z * middle.z > std::cos(10.0 * pi / 180.0);
       environment.map.values.insert(environment.map.values.end(), 3, lit ? 1.0f : 0.0f);
     }
@@ -148,7 +148,7 @@ EnvironmentsOptions small_study() {
 }  // namespace
 
 TEST_CASE("environment: the middle of a map lies behind the sphere, its right half on the right") {
-  const auto check = [](const Direction& direction, double u, double v) {
+  const auto check = [](const Vector3& direction, double u, double v) {
     const MapPosition position = map_position(direction);
     CHECK(position.u == Approx(u).margin(1e-12));
     CHECK(position.v == Approx(v).margin(1e-12));
@@ -167,7 +167,7 @@ TEST_CASE("environment: the middle of a map lies behind the sphere, its right ha
 
 TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   const SphereMaterial shiny{builtin_brdf("mitsuba/beckmann-plain"), 0.05, 1.0};
-  const auto shown = [&](const Direction& light) {
+  const auto shown = [&](const Vector3& light) {
     return centroid(render(cap_environment(light), shiny, 33, 256));
   };
   const Centroid behind_camera = shown({0.0, 0.0, 1.0});
