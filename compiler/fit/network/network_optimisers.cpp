@@ -17,26 +17,38 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A ValidationWatch keeps the parameters with the least validation error and decides when to stop.
-class ValidationWatch {
+// A ValidationWatch looks at the parameters after each iteration of a training. It keeps those with the least
+// validation error. It ends the training if this error no longer improves, or if the caller wants to stop.
+class ValidationWatch : public ceres::IterationCallback {
  public:
-  ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const OptimiserSettings& settings)
+  ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& parameters,
+                  const OptimiserSettings& settings, const StepReport& report)
       : batch_(shape, samples.validation_inputs),
         expected_(samples.validation_outputs),
-        patience_(settings.patience) {
+        parameters_(parameters),
+        settings_(settings),
+        report_(report) {
     best_.validation_rms = std::numeric_limits<double>::infinity();
   }
 
   // Returns false after too many iterations without an improvement.
-  bool observe(const VectorXd& parameters, int iteration) {
-    const double rms = rms_difference(batch_.forward(parameters.data()), expected_);
+  bool observe(int iteration) {
+    const double rms = rms_difference(batch_.forward(parameters_.data()), expected_);
     best_.iterations = iteration;
     if (rms < best_.validation_rms) {
       best_.validation_rms = rms;
-      best_.parameters = parameters;
+      best_.parameters = parameters_;
       best_.best_iteration = iteration;
     }
-    return iteration - best_.best_iteration < patience_;
+    return iteration - best_.best_iteration < settings_.patience;
+  }
+
+  bool report(int iteration) const { return report_(static_cast<double>(iteration) / settings_.iterations); }
+
+  // Ceres calls this after each iteration.
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const bool improves = observe(summary.iteration), continues = report(summary.iteration);
+    return improves && continues ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
   const OptimisedNetwork& best() const noexcept { return best_; }
@@ -44,7 +56,9 @@ class ValidationWatch {
  private:
   NetworkBatch batch_;
   const MatrixXd& expected_;
-  int patience_;
+  const VectorXd& parameters_;
+  const OptimiserSettings& settings_;
+  const StepReport& report_;
   OptimisedNetwork best_;
 };
 
@@ -113,26 +127,6 @@ class NetworkLoss : public ceres::FirstOrderFunction {
   VectorXd decay_;
 };
 
-// An IterationWatch is called after each iteration of Ceres. It ends the training if the validation error no
-// longer improves, or if the caller wants to stop.
-class IterationWatch : public ceres::IterationCallback {
- public:
-  IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)
-      : watch_(watch), parameters_(parameters), iterations_(iterations), report_(report) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    const bool improves = watch_.observe(parameters_, summary.iteration);
-    const bool continues = report_(static_cast<double>(summary.iteration) / iterations_);
-    return improves && continues ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-  }
-
- private:
-  ValidationWatch& watch_;
-  const VectorXd& parameters_;
-  int iterations_;
-  const StepReport& report_;
-};
-
 // The tolerances only end searches that no longer move. Otherwise, the validation error decides when to stop.
 template <typename Options>
 void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
@@ -158,10 +152,9 @@ OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const Networ
   ceres::Problem problem;
   problem.AddResidualBlock(new NetworkResiduals(shape, samples, settings.weight_decay), nullptr,
                            parameters.data());
-  ValidationWatch watch(shape, samples, settings);
-  IterationWatch callback(watch, parameters, settings.iterations, report);
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   ceres::Solver::Options options;
-  set_limits(options, settings, callback);
+  set_limits(options, settings, watch);
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
@@ -173,10 +166,9 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
                            const OptimiserSettings& settings, const StepReport& report) {
   VectorXd parameters = start;
   const ceres::GradientProblem problem(new NetworkLoss(shape, samples, settings.weight_decay));
-  ValidationWatch watch(shape, samples, settings);
-  IterationWatch callback(watch, parameters, settings.iterations, report);
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   ceres::GradientProblemSolver::Options options;
-  set_limits(options, settings, callback);
+  set_limits(options, settings, watch);
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(options, problem, parameters.data(), &summary);
   return watch.best();
@@ -195,10 +187,10 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
   std::mt19937_64 random(settings.seed);
 
   NetworkBatch batch(shape, {});
-  ValidationWatch watch(shape, samples, settings);
   VectorXd parameters = start, gradient(start.size());
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   VectorXd first = VectorXd::Zero(start.size()), second = VectorXd::Zero(start.size());
-  watch.observe(parameters, 0);
+  watch.observe(0);
   double step = 0.0;
   for (int pass = 1; pass <= settings.iterations; ++pass) {
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
@@ -220,8 +212,7 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
       parameters.array() -=
           rate * (first.array() / first_share) / ((second.array() / second_share).sqrt() + kFloor);
     }
-    if (!watch.observe(parameters, pass)) break;
-    if (!report(static_cast<double>(pass) / settings.iterations)) break;
+    if (!watch.observe(pass) || !watch.report(pass)) break;
   }
   return watch.best();
 }
