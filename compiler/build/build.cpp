@@ -235,8 +235,7 @@ class Builder {
     options.seed = item.seed;
     options.jobs = 1;
     options.accept_light = item.accept_light;
-    Fit fit =
-        fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
+    Fit fit = fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); });
     built->fit_seconds = stopwatch.seconds();
     return fit;
   }

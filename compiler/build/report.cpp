@@ -65,7 +65,7 @@ std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
   std::vector<ModelPair> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Fit* fit : by_trust(fits)) {
-    if (!fit->image_similarity) continue;
+    if (!fit->image_error) continue;
     const std::pair<std::string, std::string> names = std::minmax(fit->source.model, fit->target.model);
     const auto [place, is_new] = known.try_emplace(names, pairs.size());
     if (is_new) pairs.push_back({names.first, names.second, {}, {}});
@@ -114,7 +114,7 @@ std::string pair_lines(const std::vector<Fit>& fits, const ReachRecords& reach) 
 std::string uncompared_lines(const std::vector<Fit>& fits) {
   std::string text;
   for (const Fit& fit : fits)
-    if (!fit.image_similarity)
+    if (!fit.image_error)
       text += (text.empty() ? "" : "; ") + link(fit.source.model + " to " + fit.target.model, fit.id);
   return text.empty() ? "" : std::string("\n## Never compared") + kMark + "\n\n" + text + ".\n";
 }

@@ -34,7 +34,7 @@ std::optional<double> three_digits(const std::optional<double>& value) {
 std::optional<PictureDifference> picture_difference(const Fit& fit) {
   if (!fit.pictures) return std::nullopt;
   const auto one_decimal = [](double percent) { return std::round(10.0 * percent) / 10.0; };
-  return PictureDifference{one_decimal(fit.pictures->converted.rmse), one_decimal(fit.pictures->copied.rmse)};
+  return PictureDifference{one_decimal(fit.pictures->rmse), one_decimal(fit.copied_pictures->rmse)};
 }
 
 // Returns golden texels. The errors are bounds of target alpha and, within the domain, of target specular.
@@ -65,7 +65,7 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
 }
 
 ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
-  const bool has_pictures = fit.image_similarity.has_value();
+  const bool has_pictures = fit.image_error.has_value();
   ConverterData data;
   data.info = {fit.id,
                fit.source,
@@ -74,7 +74,7 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
                specular_range(fit),
                two_digits(fit.follows_rows(), fit.alpha_error.rms),
                two_digits(fit.follows_rows(), fit.specular_error.rms),
-               two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
+               two_digits(has_pictures, has_pictures ? fit.image_error->rms : 0.0),
                three_digits(mean_ssim(fit)),
                picture_difference(fit),
                is_copy(lowered.form),

@@ -34,7 +34,7 @@ Fit fit_of(const MappingKind& mapping, const Domain& domain) {
 }
 
 // Returns the largest difference from the mapping on random texels, as a fraction of the bounds.
-Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed) {
+MappedTexel worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto between = [&](const Range& range) {
@@ -42,7 +42,7 @@ Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed)
     return std::clamp(static_cast<float>(range.min + (range.max - range.min) * q * q),
                       static_cast<float>(range.min), static_cast<float>(range.max));
   };
-  Distance worst;
+  MappedTexel worst;
   for (int i = 0; i < kPoints; ++i) {
     const float a = between(fit.domain.alpha), s = between(fit.domain.specular),
                 t = s / (s + lowered.form.pole);
@@ -80,14 +80,14 @@ TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow
     const std::uint64_t first = is_full_campaign() ? 0 : 2;
     const int models = is_full_campaign() ? campaign_length(100) : 3;
     int met = 0;
-    Distance worst;
+    MappedTexel worst;
     for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(models); ++seed) {
       INFO(kind << " " << seed);
       const RandomModel model = random_model(kind, seed);
       const Fit fit = fit_of(model.mapping, model.domain);
       try {
         const Lowered lowered = lower(fit, 1e-2);
-        const Distance found = worst_share(fit, lowered, seed);
+        const MappedTexel found = worst_share(fit, lowered, seed);
         CHECK(found.alpha <= 1.0);
         CHECK(found.specular <= 1.0);
         worst = {std::max(worst.alpha, found.alpha), std::max(worst.specular, found.specular)};
