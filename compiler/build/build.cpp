@@ -228,7 +228,8 @@ class Builder {
 
   AnyFit fit_of(const ManifestItem& item, const fs::path& table, BuiltItem* built) const {
     if (const auto* finished = std::get_if<AnyFit>(&item.kind)) return *finished;
-    if (const auto* derived = std::get_if<DerivedItem>(&item.kind); derived != nullptr && !derived->is_inverse())
+    if (const auto* derived = std::get_if<DerivedItem>(&item.kind);
+        derived != nullptr && !derived->is_inverse())
       return chain_of(*derived, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
     const Stopwatch stopwatch;
@@ -347,7 +348,8 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   std::vector<std::string> reasons;
   for (const ManifestItem& item : manifest) {
     std::string reason;
-    if (freshness(item, folders, lock, &reason) != Freshness::kAll) reasons.push_back(item.id + ": " + reason);
+    if (freshness(item, folders, lock, &reason) != Freshness::kAll)
+      reasons.push_back(item.id + ": " + reason);
   }
   for (const std::string& id : vanished_items(manifest, folders, lock))
     reasons.push_back(id + ": no longer in the manifest (`remapc build --prune` removes its files)");

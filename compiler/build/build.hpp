@@ -40,9 +40,9 @@ struct BuiltItem {
 };
 
 struct BuildResult {
-  std::vector<BuiltItem> built;     // sorted by id
+  std::vector<BuiltItem> built;         // sorted by id
   std::map<std::string, Error> failed;  // by id
-  std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
+  std::vector<std::string> pruned;      // ids of items no longer in the manifest whose files were deleted
 };
 
 // Makes every item of `manifest` whose recipe, inputs or files changed since the last build. Then writes the

@@ -204,7 +204,8 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   }();
   lower_if_possible(command, &fit);
   write_file(path, fit_to_json(fit));
-  if (!command.plot.empty()) write_plot(command.plot, table, compared.empty() ? std::vector<Fit>{fit} : compared);
+  if (!command.plot.empty())
+    write_plot(command.plot, table, compared.empty() ? std::vector<Fit>{fit} : compared);
   report(command, path, fit);
 }
 

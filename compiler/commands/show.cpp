@@ -217,8 +217,8 @@ void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
 // Prints the three sources of error: between the models, between fit and table, and between header and fit.
 void print_trust(const Fit& fit) {
   if (fit.image_error) {
-    std::cout << "Difference of the models at the best match\n  picture "
-              << figures_text(*fit.image_error) << ", relative to the source picture\n";
+    std::cout << "Difference of the models at the best match\n  picture " << figures_text(*fit.image_error)
+              << ", relative to the source picture\n";
     for (const auto& [alpha, ssim] : fit.ssim)
       std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << ssim << " at alpha "
                 << std::defaultfloat << number_text(alpha) << "\n";
@@ -227,10 +227,9 @@ void print_trust(const Fit& fit) {
   }
   if (fit.pictures)
     std::cout << "Pictures, with materials and lights that the fit did not use\n  RMSE of display values "
-              << fixed(fit.pictures->rmse, 2) << " % (numbers copied "
-              << fixed(fit.copied_pictures->rmse, 2) << " %), under one light "
-              << fixed(100.0 * fit.pictures->relative, 0) << " % of the picture (copied "
-              << fixed(100.0 * fit.copied_pictures->relative, 0) << " %)\n";
+              << fixed(fit.pictures->rmse, 2) << " % (numbers copied " << fixed(fit.copied_pictures->rmse, 2)
+              << " %), under one light " << fixed(100.0 * fit.pictures->relative, 0)
+              << " % of the picture (copied " << fixed(100.0 * fit.copied_pictures->relative, 0) << " %)\n";
   if (!fit.has_errors()) {
     std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {

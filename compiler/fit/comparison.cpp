@@ -189,10 +189,9 @@ std::size_t choose(std::vector<CandidateRecord>& candidates) {
   }
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (may_be_chosen(candidates[i]))
-      candidates[i].verdict = i == chosen ? "chosen"
-                                     : distance(candidates[i]) <= 1.0
-                                         ? "more numbers for no other picture"
-                                         : "farther from the best";
+      candidates[i].verdict = i == chosen                      ? "chosen"
+                              : distance(candidates[i]) <= 1.0 ? "more numbers for no other picture"
+                                                               : "farther from the best";
   return chosen;
 }
 
@@ -260,7 +259,8 @@ Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pi
   Fit fitted = chosen;
   fitted.candidates = candidates;
   if (compared != nullptr)
-    std::ranges::copy_if(fits, std::back_inserter(*compared), [&](const Fit& fit) { return fit.id == base.id; });
+    std::ranges::copy_if(fits, std::back_inserter(*compared),
+                         [&](const Fit& fit) { return fit.id == base.id; });
   return fitted;
 }
 

@@ -19,7 +19,8 @@ namespace remap {
 // eighth of an 8-bit step). Without pictures, both relative errors on the held-out rows must be within 1 %,
 // or within .01, which pictures do not show. Throws kNumeric with the reasons if no candidate is sound.
 //
-// If `compared` is not null, it receives the fits that were compared, for plots, in the order of the candidates.
+// If `compared` is not null, it receives the fits that were compared, for plots, in the order of the
+// candidates.
 Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
                   const FitProgress& progress, std::vector<Fit>* compared = nullptr);
 

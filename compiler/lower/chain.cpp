@@ -123,8 +123,8 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
   return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
 }
 
-// Adds the errors of one step to the errors of an output, `here` at one place and `all` over all places. `row`
-// holds the derivatives of the output. Until the end, `rms` of all places is the sum of squares.
+// Adds the errors of one step to the errors of an output, `here` at one place and `all` over all places.
+// `row` holds the derivatives of the output. Until the end, `rms` of all places is the sum of squares.
 void add_step(const std::array<double, 2>& row, const Fit& step, ErrorFigures* here, ErrorFigures* all) {
   const double a = std::fabs(row[0]), s = std::fabs(row[1]);
   const ErrorFigures &alpha = step.alpha_error, &specular = step.specular_error;
@@ -157,7 +157,8 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
       raise(alpha_here, &alpha);
       raise(specular_here, &specular);
     }
-  for (ErrorFigures* figures : {&alpha, &specular}) figures->rms = std::sqrt(figures->rms / (kCoarse * kCoarse));
+  for (ErrorFigures* figures : {&alpha, &specular})
+    figures->rms = std::sqrt(figures->rms / (kCoarse * kCoarse));
 }
 
 std::optional<ErrorFigures> summed_image_error(const std::vector<Fit>& steps) {

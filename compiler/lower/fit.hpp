@@ -84,11 +84,11 @@ struct Fit {
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  Limits limits;                                    // limits of the target
-  std::map<std::string, std::string> method;        // how it was found: hyper-parameters, search, starts
-  std::vector<CandidateRecord> candidates;          // only with --model auto
-  ErrorFigures alpha_error;                         // error of the target's alpha
-  ErrorFigures specular_error;                      // error of the target's specular
+  Limits limits;                              // limits of the target
+  std::map<std::string, std::string> method;  // how it was found: hyper-parameters, search, starts
+  std::vector<CandidateRecord> candidates;    // only with --model auto
+  ErrorFigures alpha_error;                   // error of the target's alpha
+  ErrorFigures specular_error;                // error of the target's specular
   // The next two state how well the two models can match, from the rows of the table in the domain. They are
   // empty for formulas from publications. The first is the difference of pictures relative to the source's,
   // with the weights of the match. The second is the structural similarity (Wang et al. 2004) of two spheres,

@@ -269,9 +269,9 @@ std::string fit_to_json(const Fit& fit) {
       {"error_on_held_out_rows",
        {{"alpha", figures_json(fit.alpha_error)}, {"specular", figures_json(fit.specular_error)}}},
       {"similarity", similarity_json(fit)},
-      {"pictures", fit.pictures ? Json({{"converted", to_json(*fit.pictures)},
-                                        {"copied", to_json(*fit.copied_pictures)}})
-                                : Json()},
+      {"pictures",
+       fit.pictures ? Json({{"converted", to_json(*fit.pictures)}, {"copied", to_json(*fit.copied_pictures)}})
+                    : Json()},
       {"remarks", fit.remarks},
       {"split", split_json(fit.split)},
       {"table", table_record_json(fit.table)},

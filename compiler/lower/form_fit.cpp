@@ -133,8 +133,8 @@ double sum_of(const std::vector<TexelError>& errors) {
   return sum;
 }
 
-// Returns, for each source, the derivatives of target alpha and target specular with respect to the numbers of
-// the form.
+// Returns, for each source, the derivatives of target alpha and target specular with respect to the numbers
+// of the form.
 std::vector<Eigen::MatrixXd> slopes_of(const CompactForm& form, const Domain& domain,
                                        const std::vector<MappedTexel>& sources,
                                        const std::vector<MappedTexel>& targets) {
@@ -156,7 +156,8 @@ std::vector<Eigen::MatrixXd> slopes_of(const CompactForm& form, const Domain& do
 }
 
 // Return the derivatives of the sum of errors with respect to the numbers of the form.
-Eigen::MatrixXd curvature_of(const std::vector<Eigen::MatrixXd>& slopes, const std::vector<TexelError>& errors) {
+Eigen::MatrixXd curvature_of(const std::vector<Eigen::MatrixXd>& slopes,
+                             const std::vector<TexelError>& errors) {
   const Eigen::Index count = slopes.front().cols();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t r = 0; r < slopes.size(); ++r) {
@@ -167,7 +168,8 @@ Eigen::MatrixXd curvature_of(const std::vector<Eigen::MatrixXd>& slopes, const s
   return sum;
 }
 
-Eigen::VectorXd gradient_of(const std::vector<Eigen::MatrixXd>& slopes, const std::vector<TexelError>& errors) {
+Eigen::VectorXd gradient_of(const std::vector<Eigen::MatrixXd>& slopes,
+                            const std::vector<TexelError>& errors) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(slopes.front().cols());
   for (std::size_t r = 0; r < slopes.size(); ++r)
     sum += slopes[r].transpose() * Eigen::Vector2d(errors[r].by_alpha, errors[r].by_specular);

@@ -73,10 +73,10 @@ double largest(const std::vector<FormSample>& samples, const std::optional<doubl
 
 }  // namespace
 
-Lowered lower(const Fit& fit, double tolerance) {
+ConverterData lower(const Fit& fit, double tolerance) {
   if (const auto* form = std::get_if<CompactForm>(&fit.mapping)) {
     const MappedTexel rounding = rounding_of(*form, fit.domain);
-    return {*form, rounding.alpha, rounding.specular};
+    return {{}, *form, rounding.alpha, rounding.specular, {}};
   }
   if (!is_proportional(fit.mapping) && fit.domain.specular.min <= 0.0)
     throw Error(ErrorKind::kNumeric,
@@ -86,7 +86,7 @@ Lowered lower(const Fit& fit, double tolerance) {
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = tolerance, specular_within = tolerance * unit;
-  Lowered best;
+  ConverterData best;
   double nearest = INFINITY, proven = INFINITY;  // both are relative to the tolerances
   for (const FormShape& shape : lowering_shapes(fit.mapping)) {
     const CompactForm form = fit_form(samples, {}, fit.domain, shape);
@@ -104,7 +104,9 @@ Lowered lower(const Fit& fit, double tolerance) {
         {target * alpha_within - rounding.alpha, target * specular_within - rounding.specular}, kBoxes);
     if (relative(bound) >= proven) continue;
     proven = relative(bound);
-    best = {limited(form, fit, samples), bound.alpha + rounding.alpha, bound.specular + rounding.specular};
+    best.form = limited(form, fit, samples);
+    best.alpha_bound = bound.alpha + rounding.alpha;
+    best.specular_bound = bound.specular + rounding.specular;
     if (proven <= 1.0) return best;
   }
   if (proven <= kLoosest) return best;

@@ -115,7 +115,7 @@ std::size_t operations(const FactorTerms& factor) {
 }  // namespace
 
 MappedTexel proven_distance(const MappingKind& mapping, const CompactForm& form, const Domain& domain,
-                         const MappedTexel& target, std::size_t box_budget) {
+                            const MappedTexel& target, std::size_t box_budget) {
   return std::visit(
       [&](const auto& kind) {
         const auto alpha = [&](const TexelTaylor& a, const TexelTaylor& s) {
@@ -125,7 +125,7 @@ MappedTexel proven_distance(const MappingKind& mapping, const CompactForm& form,
           return target_specular(kind, a, s) - target_specular(form, a, s);
         };
         return MappedTexel{proven_bound(alpha, domain, target.alpha, box_budget),
-                        proven_bound(specular, domain, target.specular, box_budget)};
+                           proven_bound(specular, domain, target.specular, box_budget)};
       },
       mapping);
 }

@@ -95,8 +95,8 @@ class FamilyProbe {
   const Radiances& picture(std::size_t width, std::size_t point) {
     const auto [known, is_new] = pictures_[width].try_emplace(point);
     if (is_new)
-      known->second =
-          picture_taker_.take(model_, RoleValues{alphas_[width], axis_.specular(chebyshev_point(point)), 0.0});
+      known->second = picture_taker_.take(
+          model_, RoleValues{alphas_[width], axis_.specular(chebyshev_point(point)), 0.0});
     return known->second;
   }
 
@@ -159,7 +159,8 @@ class FamilyProbe {
   const ModelDescription& model_;
   SpecularFamily axis_;  // only its range and coordinate_kind are used
   std::array<double, 3> alphas_;
-  std::array<std::map<std::size_t, Radiances>, 3> pictures_;  // of each width, keyed by the index of the point
+  std::array<std::map<std::size_t, Radiances>, 3>
+      pictures_;  // of each width, keyed by the index of the point
 };
 
 }  // namespace

@@ -98,8 +98,8 @@ std::vector<EnvironmentComparison> compare_alpha(const EnvironmentsOptions& opti
           squared_noise(source, target)};
       if (!on_sheet) continue;
       const auto place = [&](std::size_t column, const LitPicture& picture) {
-        place_picture(&(*sheets)[e], pictures.resolution(), conversions[i].pair, column,
-                      pictures.pixels(), picture.display.colors);
+        place_picture(&(*sheets)[e], pictures.resolution(), conversions[i].pair, column, pictures.pixels(),
+                      picture.display.colors);
       };
       place(0, source);
       place(1 + static_cast<std::size_t>(conversions[i].method), target);

@@ -31,8 +31,8 @@ struct EnvironmentComparison {
 // kNumeric if a fit cannot be lowered, and kInterrupted.
 //
 // The comparisons are sorted by alpha, pair, method and environment. With `sheet_alpha`, `sheets` receives
-// sheets with labels, one for each environment. A row shows a pair: the source, then the result of each method.
-// If a method does not apply to the pair, its place is dark.
+// sheets with labels, one for each environment. A row shows a pair: the source, then the result of each
+// method. If a method does not apply to the pair, its place is dark.
 std::vector<EnvironmentComparison> study_environments(const EnvironmentsOptions& options,
                                                       std::vector<Image>* sheets = nullptr);
 

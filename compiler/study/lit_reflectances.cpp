@@ -66,8 +66,7 @@ class MetallicSearch {
           strip.dark.push_back(basis.dark[i]);
           strip.slope.push_back(basis.slope[i]);
           shown.push_back(display_curve()(static_cast<float>(source.diffuse[c]) * basis.diffuse[i] +
-                                          basis.dark[i] +
-                                          static_cast<float>(source.f0[c]) * basis.slope[i])
+                                          basis.dark[i] + static_cast<float>(source.f0[c]) * basis.slope[i])
                               .first);
         }
         strips_.push_back(std::move(strip));

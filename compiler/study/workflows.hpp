@@ -72,9 +72,9 @@ inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 // Throws kUsage for empty lists, numbers out of range, and an environment with the name of another
 // environment or of the headlight. Also throws kInterrupted.
 //
-// Returns the comparisons for plain diffuse, then for glTF. If `sheets` is not null, it receives one sheet with
-// labels for each environment, in display values. Each group has two rows, one for each material. A row shows
-// the source, and then the plain methods.
+// Returns the comparisons for plain diffuse, then for glTF. If `sheets` is not null, it receives one sheet
+// with labels for each environment, in display values. Each group has two rows, one for each material. A row
+// shows the source, and then the plain methods.
 std::vector<WorkflowComparison> study_workflows(const WorkflowsOptions& options,
                                                 std::vector<Image>* sheets = nullptr);
 

@@ -144,9 +144,8 @@ WorkflowFit fit_material_network(const MaterialTable& table, std::string_view by
   const double dielectric_f0 = dielectric_f0_of(rows);
   const double diffuse_deviation =
       deviation_of(rows, 0, [](double base, double metal) { return base * (1.0 - metal); });
-  const double f0_deviation = deviation_of(rows, 3, [&](double base, double metal) {
-    return dielectric_f0 * (1.0 - metal) + base * metal;
-  });
+  const double f0_deviation = deviation_of(
+      rows, 3, [&](double base, double metal) { return dielectric_f0 * (1.0 - metal) + base * metal; });
   if (f0_deviation > kLargestDeviation || diffuse_deviation > kLargestDeviation)
     throw input_error(table.name + ": rows differ from equation (2) by " +
                       number_text(std::max(f0_deviation, diffuse_deviation)) + " (rms), more than " +

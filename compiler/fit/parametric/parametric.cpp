@@ -106,8 +106,10 @@ double least_positive_specular(const std::vector<TableRow>& rows) {
   return least;
 }
 
-std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const ParametricForm& form) {
-  Eigen::MatrixXd basis(static_cast<Index>(rows.size()), std::accumulate(form.degrees.begin(), form.degrees.end(), Index{0}));
+std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows,
+                                               const ParametricForm& form) {
+  Eigen::MatrixXd basis(static_cast<Index>(rows.size()),
+                        std::accumulate(form.degrees.begin(), form.degrees.end(), Index{0}));
   Eigen::VectorXd target(basis.rows());
   for (Index r = 0; r < basis.rows(); ++r) {
     const TableRow& row = rows[static_cast<std::size_t>(r)];

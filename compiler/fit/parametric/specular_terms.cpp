@@ -57,8 +57,8 @@ double rise_derivative(double rate, double x) {
 class VariableProjection : public ceres::CostFunction {
  public:
   // Combines the rows of each alpha, of which there are two or more. If f holds the values of the curves at
-  // alpha, |weights f - target|^2 is their squared error up to a constant. A QR decomposition of the powers of
-  // specular makes this exact.
+  // alpha, |weights f - target|^2 is their squared error up to a constant. A QR decomposition of the powers
+  // of specular makes this exact.
   VariableProjection(const RowsByAlpha& by_alpha, const ParametricForm& form)
       : form_(form),
         first_alpha_(by_alpha.begin()->first),

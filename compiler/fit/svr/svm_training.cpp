@@ -40,8 +40,8 @@ std::vector<svm_node> nodes_of(const Samples& samples, const std::vector<Scaling
   nodes.reserve(samples.count() * (samples.input_count + 1));
   for (std::size_t i = 0; i < samples.count(); ++i) {
     for (std::size_t j = 0; j < samples.input_count; ++j)
-      nodes.push_back({static_cast<int>(j) + 1,
-                       normalised(scalings[j], samples.inputs[i * samples.input_count + j])});
+      nodes.push_back(
+          {static_cast<int>(j) + 1, normalised(scalings[j], samples.inputs[i * samples.input_count + j])});
     nodes.push_back({-1, 0.0});
   }
   return nodes;
@@ -108,8 +108,7 @@ std::optional<KernelExpansion> train_expansion(const Samples& samples, const Svr
   iteration_count = 0;
   // The model refers to `nodes`, which must outlive it.
   const std::unique_ptr<svm_model, void (*)(svm_model*)> model(
-      svm_train(&problem, &settings),
-      [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
+      svm_train(&problem, &settings), [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };

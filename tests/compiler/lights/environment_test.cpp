@@ -115,7 +115,8 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
   return sum;
 }
 
-std::vector<EnvironmentComparison> comparisons_of(const std::vector<EnvironmentComparison>& result, Method method) {
+std::vector<EnvironmentComparison> comparisons_of(const std::vector<EnvironmentComparison>& result,
+                                                  Method method) {
   std::vector<EnvironmentComparison> chosen;
   for (const EnvironmentComparison& comparison : result)
     if (comparison.conversion.method == method) chosen.push_back(comparison);
