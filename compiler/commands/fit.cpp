@@ -34,7 +34,7 @@ constexpr int kMostUnits = 4096, kMostStarts = 1000;
 // `auto` comes before the names of the kinds. With it, pictures decide.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
-  for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
+  for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i], kFitKinds[i]};
   return models;
 }();
 
