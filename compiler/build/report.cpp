@@ -48,8 +48,8 @@ std::string percent_text(double value) {
 
 std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
 
-// Returns the compared converters between each pair of models, in both directions. Pairs are sorted by the image
-// error of the better direction. The best pair comes first.
+// Returns the compared converters between each pair of models, in both directions. Pairs are sorted by the
+// image error of the better direction. The best pair comes first.
 std::vector<std::vector<const Fit*>> compared_pairs(const std::vector<Fit>& fits) {
   std::vector<std::vector<const Fit*>> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;

@@ -44,15 +44,14 @@ std::string width_text(const PackedWarp& warp) {
 // Each numbers_of() returns the numbers for this code.
 std::string numbers_of(const PackedWarp& warp, const PackedSeparable& terms) {
   return array_text("float", "kDiffuse", terms.diffuse, 4) +
-                           array_text("float", "kWidthNodes", terms.width_nodes, 16) +
-                           "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
-                           std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n";
+         array_text("float", "kWidthNodes", terms.width_nodes, 16) +
+         "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
+         std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n";
 }
 
 std::string numbers_of(const PackedWarp& warp, const PackedQuadratic& terms) {
   return array_text("float", "kWeights", terms.weights, 8) +
-                           "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
-                           width_text(warp) + "};\n";
+         "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " + width_text(warp) + "};\n";
 }
 
 std::string grid_text(const PackedWarp& warp) {
@@ -81,10 +80,10 @@ inline BlendedView<kDimension> table() noexcept {
 std::string numbers_of(const PackedWarp& warp, const BlendedNodes& entries) {
   const std::size_t count = entries.codes.size() / kWarpParameters;
   return fill_template(kBlendedTable, {{"count", std::to_string(count)},
-                                        {"least", list_text(entries.least, 7)},
-                                        {"largest", list_text(entries.largest, 7)},
-                                        {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
-                                        {"grid", grid_text(warp)}});
+                                       {"least", list_text(entries.least, 7)},
+                                       {"largest", list_text(entries.largest, 7)},
+                                       {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
+                                       {"grid", grid_text(warp)}});
 }
 
 constexpr std::string_view kCopiedTable = R"(@palette@
@@ -98,9 +97,9 @@ inline CopiedView<kDimension> table() noexcept {
 std::string numbers_of(const PackedWarp& warp, const CopiedNodes& entries) {
   const std::vector<float>& palette = std::get<PackedCopied>(warp.table).palette;
   return fill_template(kCopiedTable,
-                                  {{"palette", array_text("float", "kPalette", palette, 7)},
-                                   {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
-                                   {"grid", grid_text(warp)}});
+                       {{"palette", array_text("float", "kPalette", palette, 7)},
+                        {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
+                        {"grid", grid_text(warp)}});
 }
 
 }  // namespace
@@ -119,11 +118,10 @@ MaterialCode material_code(const WarpHeader& header) {
       "-1 where unknown.\n"
       "static constexpr double kCopyRmsError = " +
       double_literal(header.copy_rms_error) + ";\n";
-  code.functions =
-      code_files({"bits", "floats", "rows", "appearance", std::visit(file, warp.coordinates),
-                  std::visit(file, header.entries), "warp_block"}) +
-      "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + std::visit(numbers, warp.coordinates) +
-      std::visit(numbers, header.entries);
+  code.functions = code_files({"bits", "floats", "rows", "appearance", std::visit(file, warp.coordinates),
+                               std::visit(file, header.entries), "warp_block"}) +
+                   "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" +
+                   std::visit(numbers, warp.coordinates) + std::visit(numbers, header.entries);
   code.block = "kWarpBlock";
   code.call = "warp_block<" + dimension + ">(detail::kCoordinates, detail::table(), from, to)";
   code.within = "1e-4f";

@@ -88,8 +88,7 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);
   if (!options.kind.empty()) {
-    const Regression regression =
-        fit_kind(inside_rows(split.training), fit.domain, options, progress);
+    const Regression regression = fit_kind(inside_rows(split.training), fit.domain, options, progress);
     fit.mapping = regression.mapping;
     fit.method = regression.method;
     if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;

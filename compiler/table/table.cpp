@@ -50,9 +50,9 @@ using Places = std::array<std::size_t, kColumns.size()>;  // of kColumns in a li
   std::vector<std::string> found;
   for (const CsvCell& cell : csv.header.cells) found.emplace_back(cell.text);
   if (found.size() == 1)
-    csv.fail(csv.header.number, 1,
-             "the header row has one column, \"" + found[0] +
-                 "\" (separate columns by comma, tab or semicolon)");
+    csv.fail(
+        csv.header.number, 1,
+        "the header row has one column, \"" + found[0] + "\" (separate columns by comma, tab or semicolon)");
   std::string remedy = suggestion(wanted, found);
   remedy.back() = ';';
   csv.fail(csv.header.number, 1,

@@ -10,6 +10,8 @@
 
 #include <ceres/ceres.h>
 
+#include "measure/function_cost.hpp"
+
 namespace remap {
 namespace {
 
@@ -62,43 +64,6 @@ class ValidationWatch : public ceres::IterationCallback {
   OptimisedNetwork best_;
 };
 
-// NetworkResiduals gives residuals of all outputs and one per weight for the decay, and the Jacobian.
-class NetworkResiduals : public ceres::CostFunction {
- public:
-  NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
-      : batch_(shape, samples.training_inputs),
-        expected_(samples.training_outputs),
-        // The decay is scaled, because Ceres minimizes half the sum of squares, and the loss is the mean of
-        // squares.
-        decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
-    const auto count = static_cast<int>(shape.parameter_count());
-    set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
-    mutable_parameter_block_sizes()->push_back(count);
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    const Index count = expected_.size();
-    const bool decays = num_residuals() > count;
-    const Eigen::Map<const VectorXd> values(parameters[0], decay_.size());
-    Eigen::Map<MatrixXd>(residuals, expected_.rows(), expected_.cols()) =
-        batch_.forward(values.data()) - expected_;
-    if (decays) Eigen::Map<VectorXd>(residuals + count, decay_.size()) = decay_.cwiseProduct(values);
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    Eigen::Map<NetworkBatch::RowMajor> jacobian(jacobians[0], num_residuals(), decay_.size());
-    batch_.jacobian(values.data(), jacobian.topRows(count));
-    if (decays) {
-      jacobian.bottomRows(decay_.size()).setZero();
-      jacobian.bottomRows(decay_.size()).diagonal() = decay_;
-    }
-    return true;
-  }
-
- private:
-  mutable NetworkBatch batch_;  // Ceres uses one thread here
-  const MatrixXd& expected_;
-  VectorXd decay_;
-};
-
 // NetworkLoss gives the loss as one number, with its gradient.
 class NetworkLoss : public ceres::FirstOrderFunction {
  public:
@@ -149,9 +114,30 @@ OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const Networ
                                          const VectorXd& start, const OptimiserSettings& settings,
                                          const StepReport& report) {
   VectorXd parameters = start;
+  NetworkBatch batch(shape, samples.training_inputs);  // Ceres uses one thread here
+  const MatrixXd& expected = samples.training_outputs;
+  const Index count = expected.size(), unknowns = start.size();
+  // The decay is scaled, because Ceres minimizes half the sum of squares, and the loss is the mean of
+  // squares.
+  const VectorXd decay = std::sqrt(settings.weight_decay * static_cast<double>(count)) * weight_mask(shape);
+  // There is a residual for each output and, with decay, for each weight.
+  const Index residual_count = count + (settings.weight_decay > 0.0 ? unknowns : 0);
+  const auto evaluate = [&](const double* at, double* residuals, double* derivatives) {
+    const Eigen::Map<const VectorXd> values(at, unknowns);
+    Eigen::Map<MatrixXd>(residuals, expected.rows(), expected.cols()) = batch.forward(at) - expected;
+    const Index decays = residual_count - count;
+    if (decays > 0) Eigen::Map<VectorXd>(residuals + count, decays) = decay.cwiseProduct(values);
+    if (derivatives == nullptr) return true;
+    Eigen::Map<NetworkBatch::RowMajor> jacobian(derivatives, residual_count, unknowns);
+    batch.jacobian(at, jacobian.topRows(count));
+    jacobian.bottomRows(decays).setZero();
+    if (decays > 0) jacobian.bottomRows(decays).diagonal() = decay;
+    return true;
+  };
   ceres::Problem problem;
-  problem.AddResidualBlock(new NetworkResiduals(shape, samples, settings.weight_decay), nullptr,
-                           parameters.data());
+  problem.AddResidualBlock(new FunctionCost(static_cast<std::size_t>(residual_count),
+                                            static_cast<std::size_t>(unknowns), evaluate),
+                           nullptr, parameters.data());
   ValidationWatch watch(shape, samples, parameters, settings, report);
   ceres::Solver::Options options;
   set_limits(options, settings, watch);
