@@ -159,8 +159,8 @@ class FamilyProbe {
   const ModelDescription& model_;
   SpecularFamily axis_;  // only its range and coordinate_kind are used
   std::array<double, 3> alphas_;
-  std::array<std::map<std::size_t, Radiances>, 3>
-      pictures_;  // of each width, keyed by the index of the point
+  // The pictures of each width are keyed by the index of the point.
+  std::array<std::map<std::size_t, Radiances>, 3> pictures_;
 };
 
 }  // namespace
