@@ -252,8 +252,8 @@ def clear_maps():
 
 
 def set_world(environment):
-    """Lights the sphere by an environment, or by nothing but the lamp. Blender's map begins at -x and has +z at its top.
-    """
+    """Lights the sphere by an environment, or by nothing but the lamp. The middle column of Blender's map is +x, and its
+    top row is +z."""
     world = bpy.context.scene.world
     tree = world.node_tree
     tree.nodes.clear()
@@ -264,8 +264,8 @@ def set_world(environment):
                                                          "Background", "OutputWorld"))
     sky.image = float_image("environment", environment)
     tree.links.new(here.outputs["Generated"], parts.inputs[0])
-    for axis, socket in zip("ZXY", there.inputs):
-        tree.links.new(parts.outputs[axis], socket)
+    for axis, sign, socket in zip("ZXY", (-1, -1, 1), there.inputs):
+        tree.links.new(add_math(tree, "MULTIPLY", parts.outputs[axis], sign), socket)
     tree.links.new(there.outputs[0], sky.inputs["Vector"])
     tree.links.new(sky.outputs["Color"], shade.inputs["Color"])
     tree.links.new(shade.outputs[0], output.inputs["Surface"])
@@ -310,6 +310,8 @@ def render(request, values):
     environment = environment_of(request)
     set_world(environment)
     scene.cycles.samples = place["light"].get("samples", 1)
+    # Half of the light of an environment is found by one bounce, which cannot hit the sphere again.
+    scene.cycles.max_bounces = 0 if environment is None else 1
     lamp.hide_render = environment is not None
     if environment is None:
         lamp.location = place["light"]["position"]

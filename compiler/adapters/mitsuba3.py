@@ -53,8 +53,9 @@ def number(values):
 
 
 def texture(values):
-    """Returns a texture whose columns cover the half of the sphere that the camera sees, if AXES turns the sphere."""
-    return {"type": "bitmap", "bitmap": mi.Bitmap(values), "raw": True, "wrap_mode": "clamp",
+    """Returns a texture whose columns cover the half of the sphere that the camera sees, if AXES turns the sphere. The
+    texture repeats on the other half."""
+    return {"type": "bitmap", "bitmap": mi.Bitmap(values), "raw": True,
             "to_uv": mi.ScalarTransform4f().translate([0.5, 0, 0]).scale([2, 1, 1])}
 
 
@@ -67,8 +68,8 @@ def bsdf_of(model, values):
     if kind in ("ggx", "beckmann"):
         return {"type": "blendbsdf", "weight": 0.5,
                 "lobe": {"type": "roughconductor", "distribution": kind, "alpha": number(values["alpha"]),
-                         "material": "none", "specular_reflectance": rgb([0.5])},
-                "paint": {"type": "diffuse", "reflectance": rgb([0.5])}}
+                         "material": "none", "specular_reflectance": rgb(values["specular"])},
+                "paint": {"type": "diffuse", "reflectance": rgb(values["diffuse"])}}
     if kind == "plastic":
         return {"type": "roughplastic", "distribution": "ggx", "alpha": values["alpha"][0],
                 "int_ior": values["ior"][0], "ext_ior": 1.0,
