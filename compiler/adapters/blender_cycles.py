@@ -16,7 +16,7 @@ import bpy
 import addon_utils  # available only after bpy is loaded
 import numpy as np
 
-from worker_loop import environment_of, grey_or_rgb, parameter, serve
+from worker_loop import environment_of, grey_or_rgb, has_maps, parameter, serve
 
 MODERN = bpy.app.version >= (4, 0, 0)
 PREFIX = f"cycles-{bpy.app.version[0]}" if MODERN else "cycles-" + ".".join(map(str, bpy.app.version[:2]))
@@ -310,6 +310,8 @@ def render(request, values):
     environment = environment_of(request)
     set_world(environment)
     scene.cycles.samples = place["light"].get("samples", 1)
+    # Persistent data would show an old image if a new one has the same address.
+    scene.render.use_persistent_data = environment is None and not has_maps(values)
     # Half of the light of an environment is found by one bounce, which cannot hit the sphere again.
     scene.cycles.max_bounces = 0 if environment is None else 1
     lamp.hide_render = environment is not None
