@@ -26,6 +26,8 @@
 namespace remap {
 namespace {
 
+constexpr int kUnsharedDirections = 2048;
+
 struct PreviewCommand {
   std::string subject;  // a fit, or a folder of texture sets
   ModelName from, to;
@@ -146,6 +148,8 @@ void run_sets(const Command& given, const PreviewCommand& command) {
   SetPreviewOptions options;
   options.light = std::get<Environment>(light.light);
   if (given.count("--resolution") > 0) options.resolution = command.options.resolution;
+  // Pictures of different renderers do not share light directions, so that their noise does not cancel.
+  if (has_renderer) options.directions = kUnsharedDirections;
   if (given.count("--directions") > 0)
     options.directions = options.external_directions = command.options.directions;
   options.renderer_before = command.renderer_before;
@@ -155,6 +159,8 @@ void run_sets(const Command& given, const PreviewCommand& command) {
     RendererOptions connection = command.renderers;
     // A preview renders one picture at a time, so that one process can use all cores.
     if (connection.settings.processes == 0) connection.settings.processes = 1;
+    // A picture with maps takes minutes in a slow renderer.
+    if (given.count("--worker-timeout") == 0) connection.settings.seconds = 1800.0;
     renderers = make_renderers(connection);
     options.renderers = renderers.get();
   }
@@ -163,6 +169,8 @@ void run_sets(const Command& given, const PreviewCommand& command) {
                    : plan.sets() == nullptr ? "as its file says"
                                             : plan.conversion.source;
   options.target = command.to.empty() ? plan.conversion.target : command.to.word();
+  if (!command.renderer_before.empty()) options.source += "\nin " + command.renderer_before;
+  if (!command.renderer_after.empty()) options.target += "\nin " + command.renderer_after;
   const SetPreview preview = [&] {
     ShareProgress progress("preview", command.subject);
     options.progress = std::ref(progress);

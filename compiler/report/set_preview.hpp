@@ -24,7 +24,7 @@ struct SetPreviewOptions {
   const RendererSet* renderers = nullptr;  // has these workers
   int resolution = 440;                    // width and height of each ball, pixels
   int directions = 160;                    // samples of the light for each pixel, in the built-in renderer
-  int external_directions = 512;           // in workers, which have noise
+  int external_directions = 128;           // in workers
   std::size_t most_materials = 4;
   std::function<void(double share)> progress;  // receives the finished fraction, 0 to 1; any thread
 };
