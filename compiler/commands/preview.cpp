@@ -291,8 +291,8 @@ void add_preview_command(Command& app) {
       "Example:\n"
       "  remapc preview textures --from blender --to unity -o sheet.png\n"
       "  remapc preview model.glb -o sheet.png\n"
-      "  remapc preview textures --from blender --to mitsuba3/ggx --renderer-before cycles-5 \\\n"
-      "    --renderer-after mitsuba3 -o sheet.png\n"
+      "  remapc preview textures --to blender --renderer-before mitsuba3 \\\n"
+      "    --renderer-after cycles-5 -o sheet.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,sky -o preview.png");

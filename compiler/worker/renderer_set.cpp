@@ -90,7 +90,8 @@ std::vector<ModelDescription> RendererSet::models_of(const std::string& worker) 
   std::vector<std::string> names;
   for (const WorkerEntry& entry : workers_) names.push_back(entry.name);
   if (std::ranges::find(names, worker) == names.end())
-    throw Error(ErrorKind::kUsage, "unknown renderer '" + worker + "' (choose " + joined(names, ", ") + ")");
+    throw Error(ErrorKind::kUsage,
+                worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
   return renderer_of(worker).models();
 }
 

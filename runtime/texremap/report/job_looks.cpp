@@ -49,6 +49,13 @@ std::string target_brdf(const ConvertPlan& plan) {
   return plan.sets() != nullptr ? plan.sets()->chosen.workflow.target_brdf : kGltfBrdf;
 }
 
+// Returns the shipped converters. If they lack a model, it is of the user's converters.
+ConverterGraph graph_with(const std::string& model, const ConvertPlan& plan) {
+  ConverterGraph shipped = shipped_graph();
+  return plan.sets() == nullptr || shipped.has_model(model) ? std::move(shipped)
+                                                            : plan.sets()->converters.graph();
+}
+
 bool has_same_parameters(const WorkflowChoice& workflow) {
   const auto &source = workflow.source, &target = workflow.target;
   return source.has_value() == target.has_value() && (!source || kind_of(*source) == kind_of(*target));
@@ -58,8 +65,8 @@ bool has_same_parameters(const WorkflowChoice& workflow) {
 
 JobLooks::JobLooks(const ConvertPlan& plan, const ModelTest& before, const ModelTest& after)
     : plan_(plan),
-      source_(source_brdf(plan), shipped_graph(), before),
-      target_(target_brdf(plan), shipped_graph(), after) {
+      source_(source_brdf(plan), graph_with(source_brdf(plan), plan), before),
+      target_(target_brdf(plan), graph_with(target_brdf(plan), plan), after) {
   const auto note = [&](const std::string& model, const ShownModel& shown) {
     const std::string of = is_linear_lobe(shown.name()) ? "the closest built-in model"
                                                         : "the closest model of " + renderer_of(shown.name());
