@@ -16,7 +16,7 @@ import bpy
 import addon_utils  # available only after bpy is loaded
 import numpy as np
 
-from worker_loop import grey_or_rgb, parameter, serve
+from worker_loop import environment_of, grey_or_rgb, has_maps, parameter, serve
 
 MODERN = bpy.app.version >= (4, 0, 0)
 PREFIX = f"cycles-{bpy.app.version[0]}" if MODERN else "cycles-" + ".".join(map(str, bpy.app.version[:2]))
@@ -25,14 +25,14 @@ DISTRIBUTIONS = {"ggx": "GGX", "beckmann": "BECKMANN", "ashikhmin-shirley": "ASH
 
 # Both versions treat smaller roughness as a mirror.
 ROUGHNESS = parameter("roughness", "roughness", 0.02, 1, convention="roughness")
-MODELS = [{"name": f"{PREFIX}/{name}", "noise": name == "multiscatter-ggx" and not MODERN,
+MODELS = [{"name": f"{PREFIX}/{name}", "textures": MODERN, "noise": name == "multiscatter-ggx" and not MODERN,
            "parameters": [ROUGHNESS, parameter("color", "specular", 0, 1), parameter("diffuse", "diffuse", 0, 1)]}
           for name in DISTRIBUTIONS]
 MODELS += [
-    {"name": f"{PREFIX}/principled-metal", "parameters": [
+    {"name": f"{PREFIX}/principled-metal", "textures": MODERN, "parameters": [
         ROUGHNESS, parameter("base_color", "specular", 0, 1),
         parameter("specular", "other", 0, 1, default=0.5, grey=True)]},
-    {"name": f"{PREFIX}/principled-dielectric", "parameters": [
+    {"name": f"{PREFIX}/principled-dielectric", "textures": MODERN, "parameters": [
         ROUGHNESS, parameter("specular", "specular", 0, 1, grey=True),
         parameter("base_color", "diffuse", 0, 1)]},
 ]
@@ -91,6 +91,9 @@ def make_scene(threads):
     scene.collection.objects.link(bpy.data.objects.new("lamp", lamp))
     material = bpy.data.materials.new("skin")
     material.use_nodes = True
+    scene.world = bpy.data.worlds.new("world")
+    scene.world.use_nodes = True
+    render.film_transparent = True  # the environment lights the sphere, and is not seen beside it
     scene.collection.objects.link(one_point(material))
 
 
@@ -190,21 +193,101 @@ def rgba(values):
     return (*grey_or_rgb(values), 1)
 
 
+def float_image(name, texels):
+    """Makes an image of linear floats. Images of Blender begin with the lowest row."""
+    height, width, channels = texels.shape
+    image = bpy.data.images.new(name, width, height, float_buffer=True, is_data=True)
+    pixels = np.ones((height, width, 4), np.float32)
+    pixels[:, :, :3] = texels[::-1] if channels == 3 else np.repeat(texels[::-1], 3, axis=2)
+    image.pixels.foreach_set(pixels.ravel())
+    return image
+
+
+def add_math(tree, operation, *inputs):
+    """Adds a node that computes with numbers and outputs of other nodes. Returns its output."""
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation = operation
+    for socket, value in zip(node.inputs, inputs):
+        if isinstance(value, (int, float)):
+            socket.default_value = value
+        else:
+            tree.links.new(value, socket)
+    return node.outputs[0]
+
+
+def add_place(tree):
+    """Adds the coordinates of the protocol's maps at a point of the sphere. Returns an output with the place in an image.
+    """
+    point, parts, place = (tree.nodes.new(kind) for kind in ("ShaderNodeNewGeometry", "ShaderNodeSeparateXYZ",
+                                                             "ShaderNodeCombineXYZ"))
+    tree.links.new(point.outputs["Position"], parts.inputs[0])
+    x, y, z = parts.outputs
+    across = add_math(tree, "ARCTAN2", x, z)
+    up = add_math(tree, "ARCSINE", y)
+    for turn, socket in zip((across, up), place.inputs):
+        tree.links.new(add_math(tree, "MULTIPLY_ADD", turn, 1 / math.pi, 0.5), socket)
+    return place.outputs[0]
+
+
+def set_socket(socket, value):
+    """Sets an input of the shader: a number, a color, or the texels of a map."""
+    if not isinstance(value, np.ndarray):
+        socket.default_value = rgba(value) if socket.type == "RGBA" else value[0]
+        return
+    tree = bpy.data.materials["skin"].node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image, node.interpolation, node.extension = float_image("map", value), "Linear", "EXTEND"
+    if shader_of.get("place") is None:
+        shader_of["place"] = add_place(tree)
+    tree.links.new(shader_of["place"], node.inputs["Vector"])
+    tree.links.new(node.outputs["Color"], socket)
+
+
+def clear_maps():
+    """Removes the images and nodes of the last picture with maps."""
+    for image in [image for image in bpy.data.images if image.source == "GENERATED"]:
+        bpy.data.images.remove(image)
+    if shader_of.pop("place", None) is not None:
+        shader_of["model"] = None
+
+
+def set_world(environment):
+    """Lights the sphere by an environment, or by nothing but the lamp. The middle column of Blender's map is +x, and its
+    top row is +z."""
+    world = bpy.context.scene.world
+    tree = world.node_tree
+    tree.nodes.clear()
+    if environment is None:
+        return
+    here, parts, there, sky, shade, output = (
+        tree.nodes.new("ShaderNode" + kind) for kind in ("TexCoord", "SeparateXYZ", "CombineXYZ", "TexEnvironment",
+                                                         "Background", "OutputWorld"))
+    sky.image = float_image("environment", environment)
+    tree.links.new(here.outputs["Generated"], parts.inputs[0])
+    for axis, sign, socket in zip("ZXY", (-1, -1, 1), there.inputs):
+        tree.links.new(add_math(tree, "MULTIPLY", parts.outputs[axis], sign), socket)
+    tree.links.new(there.outputs[0], sky.inputs["Vector"])
+    tree.links.new(sky.outputs["Color"], shade.inputs["Color"])
+    tree.links.new(shade.outputs[0], output.inputs["Surface"])
+    world.cycles.sampling_method, world.cycles.sample_map_resolution = "MANUAL", 2048
+
+
 def set_material(model, values):
+    clear_maps()
     nodes = shader(model)
     inputs = nodes["lobe"].inputs
     if model.endswith("/principled-whole"):
         sockets = {socket.name.lower().replace(" ", "_"): socket for socket in inputs}
         for name, value in values.items():
-            sockets[name].default_value = rgba(value) if sockets[name].type == "RGBA" else value[0]
+            set_socket(sockets[name], value)
         return
-    inputs["Roughness"].default_value = values["roughness"][0]
+    set_socket(inputs["Roughness"], values["roughness"])
     if nodes["paint"] is not None:
-        inputs["Color"].default_value = rgba(values["color"])
-        nodes["paint"].inputs["Color"].default_value = rgba(values["diffuse"])
+        set_socket(inputs["Color"], values["color"])
+        set_socket(nodes["paint"].inputs["Color"], values["diffuse"])
         return
-    inputs["Base Color"].default_value = rgba(values["base_color"])
-    inputs["Specular IOR Level" if MODERN else "Specular"].default_value = values["specular"][0]
+    set_socket(inputs["Base Color"], values["base_color"])
+    set_socket(inputs["Specular IOR Level" if MODERN else "Specular"], values["specular"])
 
 
 def read_exr(path, side):
@@ -224,8 +307,17 @@ def render(request, values):
     camera, lamp = scene.camera, scene.objects["lamp"]
     camera.location = (0, 0, place["camera"]["distance"])  # an unrotated camera looks along -z with +y up
     camera.data.angle = 2 * math.radians(place["camera"]["half_angle"])
-    lamp.location = place["light"]["position"]
-    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts of a lamp that shines in all directions
+    environment = environment_of(request)
+    set_world(environment)
+    scene.cycles.samples = place["light"].get("samples", 1)
+    # Persistent data would show an old image if a new one has the same address.
+    scene.render.use_persistent_data = environment is None and not has_maps(values)
+    # Half of the light of an environment is found by one bounce, which cannot hit the sphere again.
+    scene.cycles.max_bounces = 0 if environment is None else 1
+    lamp.hide_render = environment is not None
+    if environment is None:
+        lamp.location = place["light"]["position"]
+        lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts of a lamp that shines in all directions
     side, samples = place["resolution"], place["samples_per_axis"]
     scene.render.resolution_x = scene.render.resolution_y = side * samples
     scene.cycles.seed = request["seed"]

@@ -27,6 +27,7 @@ WIDE = 0.5  # an alpha whose highlight has no sharp peak
 FACTORS = {"pi": math.pi, "1 / pi": 1 / math.pi, "4 pi": 4 * math.pi, "1 / (4 pi)": 0.25 / math.pi, "4": 4, "1 / 4": 0.25}
 OWN_WIDTH = {"alpha": lambda a: a, "roughness": math.sqrt, "exponent": lambda a: 2 / a**2 - 2,
              "glossiness": lambda a: 1 - math.sqrt(a), "squared": lambda a: a**2}
+ENVIRONMENT = (128, 64)  # columns and rows
 ALPHA = {"alpha": lambda w: w, "roughness": lambda w: w**2, "exponent": lambda w: math.sqrt(2 / (w + 2)),
          "glossiness": lambda w: (1 - w)**2, "squared": math.sqrt}
 
@@ -90,14 +91,26 @@ class Worker:
             raise Refused(str(answer["error"])[:2000])
         return answer
 
+    def floats(self, name, width, height, values):
+        """Writes a map or an environment. Returns its place in a request."""
+        path = self.image.with_name(name + ".f32")
+        path.write_bytes(array.array("f", values).tobytes())
+        return {"map": str(path), "width": width, "height": height}
+
     def render(self, model, parameters, light, resolution, samples, seed):
-        """A picture: rows of pixels, each a list of channels."""
-        turn, distance = math.radians(light[0]), light[1]
-        channels = 3 if any(len(values) > 1 for values in parameters.values()) else 1
+        """Returns a picture. `light` is an angle and a distance, or the values of an environment."""
+        if len(light) > 2:
+            place = self.floats("environment", *ENVIRONMENT, light)
+            source = {"environment": place.pop("map"), **place, "samples": 64}
+        else:
+            turn, distance = math.radians(light[0]), light[1]
+            source = {"angle": light[0], "distance": distance, "intensity": 1,
+                      "position": [distance * math.sin(turn), 0, distance * math.cos(turn)]}
+        has_maps = len(light) > 2 or any(isinstance(values, dict) for values in parameters.values())
+        channels = 3 if has_maps or any(len(values) > 1 for values in parameters.values()) else 1
         scene = {"resolution": resolution, "samples_per_axis": samples,
                  "camera": {"distance": CAMERA, "half_angle": math.degrees(math.asin(1 / CAMERA))},
-                 "light": {"angle": light[0], "distance": distance, "intensity": 1,
-                           "position": [distance * math.sin(turn), 0, distance * math.cos(turn)]}}
+                 "light": source}
         self.image.unlink(missing_ok=True)
         self.ask(request="render", model=model, parameters=parameters, scene=scene, seed=seed, channels=channels,
                  image=str(self.image))
@@ -203,6 +216,15 @@ def lambertian(side, light):
     return Picture(side, [()]).made(side, pixel)
 
 
+def environment(radiance):
+    """Returns the values of an environment with the RGB radiance(x, y, z)."""
+    values, (columns, rows) = array.array("f"), ENVIRONMENT
+    for i in range(rows * columns):
+        azimuth, polar = 2 * math.pi * ((i % columns + 0.5) / columns - 0.5), math.pi * (i // columns + 0.5) / rows
+        values.extend(radiance(math.sin(polar) * math.sin(azimuth), math.cos(polar), -math.sin(polar) * math.cos(azimuth)))
+    return values
+
+
 def percent(share):
     return f"{100 * share:.2g} %"
 
@@ -218,7 +240,7 @@ class ModelCheck:
     def run(self):
         try:
             for check in (self.refusals, self.geometry, self.light, self.values, self.repeats, self.samples, self.color,
-                          self.width):
+                          self.width, self.textures):
                 check()
         except (Refused, Broken) as failure:
             self.add("answer", "wrong", str(failure))
@@ -385,6 +407,45 @@ class ModelCheck:
                 wrong = (f"channel {c} differs by {percent(off)} from a grey picture of its value; channels must be red, green, "
                          "blue and independent")
         self.judge("color", not wrong, "red, green, blue", wrong)
+
+    def textures(self):
+        """Checks maps and environments."""
+        if not self.model.get("textures", False):
+            return
+        numbers = self.material(WIDE, self.high, 0)
+        maps = {p["name"]: self.worker.floats(p["role"], 4, 4, 16 * numbers[p["name"]]) | {"channels": 1}
+                for p in self.model["parameters"] if p["role"] != "other"}
+        off = self.take(numbers, ASIDE).difference(self.take({**numbers, **maps}, ASIDE))
+        self.judge("constant maps", off <= SAME, "as numbers, to " + percent(off),
+                   f"maps of one value differ by {percent(off)} from the numbers: color spaces, 8 bits, or another range")
+        self.map_places(numbers)
+        self.environments()
+
+    def map_places(self, numbers):
+        name, high, low = self.role["specular"]["name"], self.high, self.low
+        for where, texels, axis in (("left", 4 * [high, high, low, low], 0), ("top", 8 * [high] + 8 * [low], 1)):
+            numbers[name] = self.worker.floats("half", 4, 4, texels) | {"channels": 1}
+            # the lobe at the edges of the picture is dim, so that only the sign of the place is certain
+            place = (-1, 1)[axis] * self.take(numbers).centre()[axis]
+            self.judge("map " + where, place > 0.05, f"at the {where} of the sphere",
+                       f"the {where} of a map is not at the {where} of the sphere")
+
+    def environments(self):
+        """Checks the radiance of the brightest material, and from where light comes."""
+        has_diffuse = "diffuse" in self.role
+        white = self.material(WIDE, self.low if has_diffuse else self.high, self.role["diffuse"]["range"][1] if has_diffuse else 0)
+        even = self.take(white, environment(lambda *_: (1, 1, 1)))
+        mean = sum(even.values[i] for i in even.within()) / sum(1 for _ in even.within())
+        least = 0.97 if has_diffuse else 0.5
+        self.judge("environment", least <= mean <= 1.03, f"white is {mean:.3g} in an environment of 1",
+                   f"white has a radiance of {mean:.3g} in an environment of 1; it must have {least:.3g} to 1")
+        sides = self.take(white, environment(lambda x, y, z: (max(x, 0), max(y, 0), max(z, 0))))
+        red, green, blue = (Picture(self.side, [channel]) for channel in sides.channels)
+        bright = [sum(picture.values) for picture in (red, green, blue)]
+        self.judge("light right", red.centre()[0] > 0.1, "is on the right", "the +x of an environment does not light the right")
+        self.judge("light top", green.centre()[1] > 0.1, "is at the top", "the +y of an environment does not light the top")
+        self.judge("light front", bright[2] > 1.5 * max(bright[:2]), "is in the middle",
+                   "the +z of an environment, behind the camera, does not light the middle")
 
     def width(self):
         """Checks that a wider highlight has more light relative to its peak."""

@@ -8,23 +8,24 @@ import math
 
 import drjit
 import mitsuba as mi
+import numpy as np
 
-from worker_loop import grey_or_rgb, parameter, serve
+from worker_loop import environment_of, grey_or_rgb, has_maps, parameter, serve
 
 mi.set_variant("scalar_rgb")
 
 ALPHA = parameter("alpha", "roughness", 1e-4, 1, convention="alpha")
 MODELS = [
-    {"name": "mitsuba3/ggx", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
-                                            parameter("diffuse", "diffuse", 0, 1)]},
-    {"name": "mitsuba3/beckmann", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
-                                                 parameter("diffuse", "diffuse", 0, 1)]},
+    {"name": "mitsuba3/ggx", "textures": True, "parameters": [
+        ALPHA, parameter("specular", "specular", 0, 1), parameter("diffuse", "diffuse", 0, 1)]},
+    {"name": "mitsuba3/beckmann", "textures": True, "parameters": [
+        ALPHA, parameter("specular", "specular", 0, 1), parameter("diffuse", "diffuse", 0, 1)]},
     # This plastic has the exact Fresnel of a dielectric. Its diffuse lobe is below the interface and loses the
     # reflected light.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
                                                 parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},
-    {"name": "mitsuba3/principled-metal", "parameters": [
+    {"name": "mitsuba3/principled-metal", "textures": True, "parameters": [
         parameter("roughness", "roughness", 0.0317, 1, convention="roughness"),
         parameter("base_color", "specular", 0, 1),
         parameter("specular", "other", 0, 1, default=0.5, grey=True)]},
@@ -44,22 +45,37 @@ def describe(threads):
 
 
 def rgb(values):
-    return {"type": "rgb", "value": grey_or_rgb(values)}
+    return texture(values) if isinstance(values, np.ndarray) else {"type": "rgb", "value": grey_or_rgb(values)}
+
+
+def number(values):
+    return texture(values) if isinstance(values, np.ndarray) else values[0]
+
+
+def texture(values):
+    """Returns a texture whose columns cover the half of the sphere that the camera sees, if AXES turns the sphere. The
+    texture repeats on the other half."""
+    return {"type": "bitmap", "bitmap": mi.Bitmap(values), "raw": True,
+            "to_uv": mi.ScalarTransform4f().translate([0.5, 0, 0]).scale([2, 1, 1])}
+
+
+# With this transform, the axis of the sphere is +y, and its texture begins at +z.
+AXES = mi.ScalarTransform4f(np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]], float))
 
 
 def bsdf_of(model, values):
     kind = model.split("/")[1]
     if kind in ("ggx", "beckmann"):
         return {"type": "blendbsdf", "weight": 0.5,
-                "lobe": {"type": "roughconductor", "distribution": kind, "alpha": values["alpha"][0],
-                         "material": "none", "specular_reflectance": rgb([0.5])},
-                "paint": {"type": "diffuse", "reflectance": rgb([0.5])}}
+                "lobe": {"type": "roughconductor", "distribution": kind, "alpha": number(values["alpha"]),
+                         "material": "none", "specular_reflectance": rgb(values["specular"])},
+                "paint": {"type": "diffuse", "reflectance": rgb(values["diffuse"])}}
     if kind == "plastic":
         return {"type": "roughplastic", "distribution": "ggx", "alpha": values["alpha"][0],
                 "int_ior": values["ior"][0], "ext_ior": 1.0,
                 "specular_reflectance": rgb(values["specular"]), "diffuse_reflectance": rgb(values["diffuse"])}
     metal = kind == "principled-metal"
-    return {"type": "principled", "roughness": values["roughness"][0], "metallic": 1.0 if metal else 0.0,
+    return {"type": "principled", "roughness": number(values["roughness"]), "metallic": 1.0 if metal else 0.0,
             "specular": values["specular"][0], "base_color": rgb(values["base_color"])}
 
 
@@ -67,21 +83,31 @@ def shape_of(scene):
     return {"type": "ply", "filename": scene["mesh"]} if "shape" in scene else {"type": "sphere"}
 
 
-def make_scene(model, values, scene):
+def lamp(scene, power):
+    return {"type": "point", "position": scene["light"]["position"], "intensity": rgb([power * scene["light"]["intensity"]])}
+
+
+def dome(environment, power):
+    """Returns an environment. The middle column of Mitsuba's map is +z, not -z."""
+    turned = np.roll(environment, environment.shape[1] // 2, axis=1)
+    return {"type": "envmap", "bitmap": mi.Bitmap(turned), "scale": power}
+
+
+def make_scene(model, values, scene, environment=None):
     side, light = scene["resolution"], 2.0 if model in ("mitsuba3/ggx", "mitsuba3/beckmann") else 1.0
     distance = scene["camera"]["distance"]
     return mi.load_dict({
         "type": "scene",
-        "integrator": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0},
+        "integrator": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0 if environment is None else 1,
+                       "hide_emitters": True},
         "sensor": {"type": "perspective", "fov": 2 * scene["camera"]["half_angle"],
                    "to_world": mi.ScalarTransform4f().look_at([0, 0, distance], [0, 0, 0], [0, 1, 0]),
                    "film": {"type": "hdrfilm", "width": side, "height": side, "rfilter": {"type": "box"},
-                            "pixel_format": "rgb", "component_format": "float32"},
-                   "sampler": {"type": "stratified", "sample_count": scene["samples_per_axis"] ** 2,
-                               "jitter": False}},
-        "light": {"type": "point", "position": scene["light"]["position"],
-                  "intensity": rgb([light * scene["light"]["intensity"]])},
-        "ball": {**shape_of(scene), "bsdf": bsdf_of(model, values)}})
+                            "pixel_format": "rgb" if environment is None else "rgba", "component_format": "float32"},
+                   "sampler": {"type": "stratified", "sample_count": scene["samples_per_axis"] ** 2, "jitter": False}
+                   if environment is None else {"type": "multijitter"}},
+        "light": lamp(scene, light) if environment is None else dome(environment, light),
+        "ball": {**shape_of(scene), **({"to_world": AXES} if has_maps(values) else {}), "bsdf": bsdf_of(model, values)}})
 
 
 def scene_of(model, values, scene):
@@ -104,9 +130,16 @@ def scene_of(model, values, scene):
 
 
 def render(request, values):
-    scene = request["scene"]
-    samples = scene["samples_per_axis"] ** 2
-    return mi.render(scene_of(request["model"], values, scene), spp=samples, seed=request["seed"])
+    scene, environment = request["scene"], environment_of(request)
+    is_kept = environment is None and not has_maps(values)
+    ready = scene_of(request["model"], values, scene) if is_kept else make_scene(request["model"], values, scene, environment)
+    samples = scene["samples_per_axis"] ** 2 * scene["light"].get("samples", 1)
+    picture = mi.render(ready, spp=samples, seed=request["seed"])
+    if environment is None:
+        return picture
+    # A pixel at the edge of the sphere becomes the mean over its part that shows the sphere.
+    picture = np.array(picture)
+    return picture[:, :, :3] / np.maximum(picture[:, :, 3:], 1e-6)
 
 
 serve(describe, render)

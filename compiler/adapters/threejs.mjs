@@ -20,9 +20,9 @@ const parameter = (name, role, least, most, more = {}) => ({ name, role, range: 
 // The shader clamps smaller roughness.
 const roughness = parameter('roughness', 'roughness', 0.0525, 1, { convention: 'roughness' });
 const models = [
-  { name: `${prefix}/standard-metal`, precision: 2e-6,
+  { name: `${prefix}/standard-metal`, precision: 2e-6, textures: true,
     parameters: [roughness, parameter('color', 'specular', 0, 1)] },
-  { name: `${prefix}/physical-dielectric`, precision: 2e-6,
+  { name: `${prefix}/physical-dielectric`, precision: 2e-6, textures: true,
     parameters: [roughness, parameter('specularIntensity', 'specular', 0, 1, { grey: true }),
       parameter('color', 'diffuse', 0, 1), parameter('ior', 'other', 1, 2.333, { default: 1.5, grey: true })] },
   { name: `${prefix}/phong`, precision: 2e-6,
@@ -68,26 +68,65 @@ function preparePage() {
     ball.geometry = new THREE.BufferGeometry();
     ball.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
     ball.geometry.setAttribute('normal', new THREE.Float32BufferAttribute(points, 3));
+    const places = [];
+    for (let i = 0; i < points.length; i += 3)
+      places.push(0.5 + Math.atan2(points[i], points[i + 2]) / Math.PI, Math.acos(points[i + 1]) / Math.PI);
+    ball.geometry.setAttribute('uv', new THREE.Float32BufferAttribute(places, 2));
     if (target !== null) target.dispose();
     target = new THREE.WebGLRenderTarget(pixels, pixels, { type: THREE.FloatType });
     size = pixels;
   };
 
+  // Reads floats that Node.js sends, and makes a texture of RGBA. The first row in memory has v = 0.
+  const floatTexture = async ({ index, width, height, channels }, moved = (row, column) => row * width + column) => {
+    const texels = new Float32Array(await (await fetch(`/map/${index}`)).arrayBuffer());
+    const rgba = new Float32Array(4 * width * height).fill(1);
+    for (let row = 0; row < height; ++row)
+      for (let column = 0; column < width; ++column)
+        for (let c = 0; c < (channels === 1 ? 4 : 3); ++c)
+          rgba[4 * (row * width + column) + c] = texels[channels * moved(row, column) + (channels === 1 ? 0 : c)];
+    const texture = new THREE.DataTexture(rgba, width, height, THREE.RGBAFormat, THREE.FloatType);
+    texture.magFilter = texture.minFilter = THREE.LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
+  };
+
+  // Prefilters the environment, as users of three.js do. The middle column of three.js is +x, and its first row -y.
+  const environmentOf = async (light) => {
+    const { width, height } = light;
+    const map = await floatTexture({ ...light, channels: 3 },
+      (row, column) => (height - 1 - row) * width + (column + Math.round(width / 4)) % width);
+    map.mapping = THREE.EquirectangularReflectionMapping;
+    const generator = new THREE.PMREMGenerator(renderer), filtered = generator.fromEquirectangular(map);
+    map.dispose();
+    generator.dispose();
+    return filtered;
+  };
+  const mapOf = { color: 'map', roughness: 'roughnessMap', specularIntensity: 'specularIntensityMap' };
+
   // Returns red, green, blue of every pixel, row 0 at the top, as base64.
-  globalThis.draw = (model, values, where, pixels) => {
+  globalThis.draw = async (model, values, where, pixels) => {
     if (pixels !== size) place(pixels, where.camera);
     const eye = new THREE.PerspectiveCamera(2 * where.camera.half_angle, 1, 0.1, 100);
     eye.position.set(0, 0, where.camera.distance);
-    lamp.position.set(...where.light.position);
-    lamp.intensity = where.light.intensity;
-    const material = materials[model];
-    for (const [name, list] of Object.entries(values)) {
+    const filtered = where.light.environment ? await environmentOf(where.light) : null;
+    scene.environment = filtered?.texture ?? null;
+    lamp.position.set(...(where.light.position ?? [0, 0, 3]));
+    lamp.intensity = where.light.intensity ?? 0;
+    const material = materials[model], textures = [];
+    for (const name of Object.values(mapOf)) if (name in material) material[name] = null;
+    for (const [name, value] of Object.entries(values)) {
+      const list = Array.isArray(value) ? value : [1];
+      if (list !== value) textures.push(material[mapOf[name]] = await floatTexture(value));
       if (material[name].isColor) material[name].setRGB(list[0], list.at(list.length === 3 ? 1 : 0), list.at(-1));
       else material[name] = list[0];
     }
+    material.needsUpdate = true;
     ball.material = material;
     renderer.setRenderTarget(target);
     renderer.render(scene, eye);
+    for (const texture of textures) texture.dispose();
+    filtered?.dispose();
     const rgba = new Float32Array(4 * pixels * pixels), rgb = new Float32Array(3 * pixels * pixels);
     renderer.readRenderTargetPixels(target, 0, 0, pixels, pixels, rgba);
     for (let i = 0; i < pixels * pixels; ++i) {
@@ -101,11 +140,20 @@ function preparePage() {
   };
 }
 
+let maps = [];  // the files of the request, which the page may read
+
+// Returns a map or environment whose file the page finds by its index. Throws if the file has another size.
+function registered(place, file, channels) {
+  const expected = 4 * place.width * place.height * channels, found = fs.statSync(file).size;
+  if (found !== expected) throw new Error(`${file} has ${found} bytes, not ${expected}`);
+  return { ...place, index: maps.push(file) - 1 };
+}
+
 async function openPage() {
   const server = http.createServer((request, response) => {
-    const script = request.url.startsWith('/three/');
-    response.setHeader('Content-Type', script ? 'text/javascript' : 'text/html');
-    response.end(script ? fs.readFileSync(path.join(build, path.basename(request.url))) : '<!doctype html>');
+    const script = request.url.startsWith('/three/'), map = maps[request.url.match(/^\/map\/(\d+)$/)?.[1]];
+    response.setHeader('Content-Type', map ? 'application/octet-stream' : script ? 'text/javascript' : 'text/html');
+    response.end(map ? fs.readFileSync(map) : script ? fs.readFileSync(path.join(build, path.basename(request.url))) : '<!doctype html>');
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
   const puppeteer = (await import(pathToFileURL(require.resolve('puppeteer-core')))).default;
@@ -126,6 +174,14 @@ function refuseUnknown(request) {
   for (const { name, range, grey } of model.parameters) {
     const list = request.parameters[name];
     if (!list) throw new Error(`${name} has no value`);
+    if (!Array.isArray(list)) {
+      if (!model.textures || name === 'ior') throw new Error(`${name} accepts no map (send a list of numbers)`);
+      if ((grey || name === 'roughness') && list.channels !== 1) throw new Error(`the map of ${name} has ${list.channels} channels, but ${name} takes one`);
+      request.parameters[name] = registered(list, list.map, list.channels);
+      const values = new Float32Array(new Uint8Array(fs.readFileSync(list.map)).buffer);
+      if (!values.every((value) => value >= range[0] && value <= range[1])) throw new Error(`the map of ${name} has values out of range (${range[0]} to ${range[1]})`);
+      continue;
+    }
     if (grey && list.length !== 1) throw new Error(`${name} has ${list.length} values, but takes one`);
     for (const value of list)
       if (!(value >= range[0] && value <= range[1])) throw new Error(`${name} = ${value} is out of range (${range[0]} to ${range[1]})`);
@@ -133,7 +189,10 @@ function refuseUnknown(request) {
 }
 
 async function render(page, request) {
+  maps = [];
   refuseUnknown(request);
+  const { light } = request.scene;
+  if (light.environment) request.scene.light = registered(light, light.environment, 3);
   const { resolution: side, samples_per_axis: samples } = request.scene, channels = request.channels;
   const size = side * samples;
   const text = await page.evaluate((...all) => globalThis.draw(...all), request.model.split('/')[1],

@@ -3,6 +3,7 @@
 Standard output of the renderer is redirected to standard error, so that standard output holds answers only.
 """
 import json
+import math
 import os
 import sys
 
@@ -27,12 +28,45 @@ def check_material(models, request):
         name, (least, most) = described["name"], described["range"]
         if name not in values:
             raise Refused(f"{name} has no value")
+        if isinstance(values[name], dict):
+            values[name] = read_map(model, described, values[name])
+            continue
         if described.get("grey") and len(values[name]) != 1:
             raise Refused(f"{name} has {len(values[name])} values, but takes one")
         for value in values[name]:
             if not least <= value <= most:
                 raise Refused(f"{name} = {value} is out of range ({least} to {most})")
     return values
+
+
+def read_map(model, described, place):
+    """Returns the map of a parameter as an array of rows x columns x channels, row 0 at the top."""
+    name, (least, most) = described["name"], described["range"]
+    if not model.get("textures") or described["role"] == "other":
+        raise Refused(f"{name} accepts no map (send a list of numbers)")
+    texels = read_floats(place["map"], place["height"], place["width"], place["channels"])
+    if place["channels"] != 1 and (described.get("grey") or described["role"] == "roughness"):
+        raise Refused(f"the map of {name} has {place['channels']} channels, but {name} takes one")
+    if not (least <= texels.min() and texels.max() <= most):
+        raise Refused(f"the map of {name} has values from {texels.min()} to {texels.max()}, but the range is {least} to {most}")
+    return texels
+
+
+def read_floats(path, *shape):
+    texels = np.fromfile(path, np.float32)
+    if texels.size != math.prod(shape):
+        raise Refused(f"{path} has {texels.size} values, not {math.prod(shape)}")
+    return texels.reshape(shape)
+
+
+def environment_of(request):
+    """Returns the radiance of the environment, rows x columns x 3, or None if a point light shines."""
+    light = request["scene"]["light"]
+    return read_floats(light["environment"], light["height"], light["width"], 3) if "environment" in light else None
+
+
+def has_maps(values):
+    return any(isinstance(value, np.ndarray) for value in values.values())
 
 
 def grey_or_rgb(values):

@@ -26,6 +26,8 @@
 namespace remap {
 namespace {
 
+constexpr int kUnsharedDirections = 2048;
+
 struct PreviewCommand {
   std::string subject;  // a fit, or a folder of texture sets
   ModelName from, to;
@@ -36,6 +38,7 @@ struct PreviewCommand {
   double distance = 3.0, exposure = 1.0;
   PreviewOptions options;  // its lights are set when the command runs
   bool bare = false, force = false, json = false;
+  std::string renderer_before, renderer_after;
   RendererOptions renderers;
 };
 
@@ -130,10 +133,13 @@ ConvertPlan plan_of(const PreviewCommand& command) {
 }
 
 void run_sets(const Command& given, const PreviewCommand& command) {
-  for (const char* option : {"--fits", "--alpha", "--specular", "--shape", "--diffuse", "--distance",
-                             "--pixel-samples", "--worker"})
+  for (const char* option :
+       {"--fits", "--alpha", "--specular", "--shape", "--diffuse", "--distance", "--pixel-samples"})
     if (given.count(option) > 0)
       throw usage_error(std::string(option) + ": applies to fits only (remove this option)");
+  const bool has_renderer = !command.renderer_before.empty() || !command.renderer_after.empty();
+  if (given.count("--worker") > 0 && !has_renderer)
+    throw usage_error("--worker: needs --renderer-before or --renderer-after for texture sets");
   if (command.lights.size() > 1) throw usage_error("--light: give one light for texture sets");
   const std::string word = command.lights.empty() ? "studio" : command.lights.front();
   const PreviewLight light = preview_light(word, command.distance, command.exposure);
@@ -142,12 +148,29 @@ void run_sets(const Command& given, const PreviewCommand& command) {
   SetPreviewOptions options;
   options.light = std::get<Environment>(light.light);
   if (given.count("--resolution") > 0) options.resolution = command.options.resolution;
-  if (given.count("--directions") > 0) options.directions = command.options.directions;
+  // Pictures of different renderers do not share light directions, so that their noise does not cancel.
+  if (has_renderer) options.directions = kUnsharedDirections;
+  if (given.count("--directions") > 0)
+    options.directions = options.external_directions = command.options.directions;
+  options.renderer_before = command.renderer_before;
+  options.renderer_after = command.renderer_after;
+  std::unique_ptr<RendererSet> renderers;
+  if (has_renderer) {
+    RendererOptions connection = command.renderers;
+    // A preview renders one picture at a time, so that one process can use all cores.
+    if (connection.settings.processes == 0) connection.settings.processes = 1;
+    // A picture with maps takes minutes in a slow renderer.
+    if (given.count("--worker-timeout") == 0) connection.settings.seconds = 1800.0;
+    renderers = make_renderers(connection);
+    options.renderers = renderers.get();
+  }
   const ConvertPlan plan = plan_of(command);
   options.source = !command.from.empty()    ? command.from.word()
                    : plan.sets() == nullptr ? "as its file says"
                                             : plan.conversion.source;
   options.target = command.to.empty() ? plan.conversion.target : command.to.word();
+  if (!command.renderer_before.empty()) options.source += "\nin " + command.renderer_before;
+  if (!command.renderer_after.empty()) options.target += "\nin " + command.renderer_after;
   const SetPreview preview = [&] {
     ShareProgress progress("preview", command.subject);
     options.progress = std::ref(progress);
@@ -175,6 +198,10 @@ void run(const Command& given, const PreviewCommand& command) {
   if (!command.to.empty() || is_asset_name(command.subject) ||
       std::filesystem::is_directory(command.subject, ignored))
     return run_sets(given, command);
+  for (const char* option : {"--renderer-before", "--renderer-after"})
+    if (given.count(option) > 0)
+      throw usage_error(std::string(option) +
+                        ": applies to texture sets and glTF files only (remove this option)");
   const Fit fit = find_fit(command.subject, command.fit_folder);
   PreviewOptions options = with_lights(given, command, fit);
   const Preview preview = [&] {
@@ -252,11 +279,20 @@ void add_preview_command(Command& app) {
           "--pixel-samples", options.options.samples_per_axis,
           "N x N samples per pixel; under an environment, only at the edge of the shape; 1: the pixel center")
       ->range(1, 16);
+  command->option_group("Real renderers (texture sets and glTF files)");
+  command->add_option(
+      "--renderer-before NAME", options.renderer_before,
+      "Renderer that shows the source: cycles-5, mitsuba3, threejs-r187, or a worker with maps "
+      "(default: the built-in renderer)");
+  command->add_option("--renderer-after NAME", options.renderer_after,
+                      "Renderer that shows the copied numbers and the converted ones");
   add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
       "  remapc preview textures --from blender --to unity -o sheet.png\n"
       "  remapc preview model.glb -o sheet.png\n"
+      "  remapc preview textures --to blender --renderer-before mitsuba3 \\\n"
+      "    --renderer-after cycles-5 -o sheet.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_as --light 45,sky -o preview.png");

@@ -27,14 +27,17 @@ Json model_json(const ModelDescription& model) {
       parameters[parameter.name]["convention"] = encoding_name(model.roughness);
     if (parameter.role == ParameterRole::kOther) parameters[parameter.name]["default"] = parameter.standard;
   }
-  return {{"model", model.name}, {"noise", model.noise}, {"parameters", parameters}};
+  return {{"model", model.name},
+          {"noise", model.noise},
+          {"textures", model.textures},
+          {"parameters", parameters}};
 }
 
 void print_model(const ModelDescription& model) {
   std::cout << "  " << std::left << std::setw(28) << model.name;
   for (const ParameterDescription& parameter : model.parameters)
     std::cout << "  " << parameter.name << " " << range_text(parameter.range);
-  std::cout << (model.noise ? "  (noise)" : "") << "\n";
+  std::cout << (model.noise ? "  (noise)" : "") << (model.textures ? "  (textures)" : "") << "\n";
 }
 
 void run(const RenderersCommand& command) {

@@ -70,23 +70,45 @@ void require_value(const ModelDescription& model, const ParameterDescription& pa
                                      number_text(parameter.range.max) + ")");
 }
 
+namespace {
+
+[[noreturn]] void fail(const ModelDescription& model, const std::string& what) {
+  throw Error(ErrorKind::kUsage, model.name + ": " + what);
+}
+
+void require_map(const Image& map, const ModelDescription& model, const ParameterDescription& parameter) {
+  if (!model.textures || parameter.role == ParameterRole::kOther)
+    fail(model, "parameter " + parameter.name + " accepts no map (give a number)");
+  const auto texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+  const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
+  if (map.channels != 1 && (is_one || map.channels != 3))
+    fail(model, "the map of " + parameter.name + " has " + std::to_string(map.channels) + " channels (give " +
+                    (is_one ? "1" : "1 or 3") + ")");
+  if (texels == 0 || map.values.size() != texels * static_cast<std::size_t>(map.channels))
+    fail(model, "the map of " + parameter.name + " is incomplete (give a value for each texel)");
+  for (const float value : map.values) require_value(model, parameter, static_cast<double>(value));
+}
+
+}  // namespace
+
 void require_material(const Material& material, const ModelDescription& model) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::kUsage, model.name + ": " + what);
-  };
   std::vector<std::string> names;
   for (const ParameterDescription& parameter : model.parameters) names.push_back(parameter.name);
   for (const auto& entry : material.parameters)
     if (std::find(names.begin(), names.end(), entry.first) == names.end())
-      fail("has no parameter " + entry.first + suggestion(entry.first, names));
+      fail(model, "has no parameter " + entry.first + suggestion(entry.first, names));
   for (const ParameterDescription& parameter : model.parameters) {
+    if (const auto map = material.maps.find(parameter.name); map != material.maps.end()) {
+      require_map(map->second, model, parameter);
+      continue;
+    }
     const auto found = material.parameters.find(parameter.name);
-    if (found == material.parameters.end()) fail("parameter " + parameter.name + " has no value");
+    if (found == material.parameters.end()) fail(model, "parameter " + parameter.name + " has no value");
     const std::vector<double>& values = found->second;
     const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
     if (values.size() != 1 && (is_one || values.size() != 3))
-      fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values (give " +
-           (is_one ? "1" : "1 or 3") + ")");
+      fail(model, "parameter " + parameter.name + " has " + std::to_string(values.size()) + " values (give " +
+                      (is_one ? "1" : "1 or 3") + ")");
     for (const double value : values) require_value(model, parameter, value);
   }
 }

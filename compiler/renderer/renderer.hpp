@@ -42,6 +42,7 @@ struct ModelDescription {
   std::vector<ParameterDescription> parameters;
   bool noise = false;        // true if the picture depends on the seed
   bool is_external = false;  // another program renders it, so pictures take long and its claims are checked
+  bool textures = false;     // accepts maps, and an environment as light
   double precision = 0.0;    // relative error of a pixel; 0 if it is no larger than the error of a float
 
   bool has(ParameterRole role) const;
@@ -52,9 +53,12 @@ struct ModelDescription {
 };
 
 // A Material is a model with a value for each parameter: one value for grey, three for red, green, blue.
+// Instead of a value, a parameter of a model with `textures` may have a map (PROTOCOL.md describes where it
+// lies on the sphere), except parameters of the role kOther.
 struct Material {
   std::string model;
   std::map<std::string, std::vector<double>> parameters;
+  std::map<std::string, Image> maps = {};
 };
 
 class Renderer {

@@ -2,26 +2,82 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
+#include <map>
 
 #include "core/errors.hpp"
 #include "core/report_text.hpp"
 #include "look/scene.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/external_ball.hpp"
 #include "texremap/report/job_looks.hpp"
 
 namespace remap {
 namespace {
 
-// Renders a material, and reports the finished fraction of its rows.
-LitLooks lit(const MaterialLooks& looks, const RadiancePyramid& environment, const SetPreviewOptions& options,
-             const std::function<void(double)>& progress) {
-  std::atomic<int> rows = 0;
-  SphereSampling sampling;
-  sampling.resolution = options.resolution;
-  sampling.samples = options.directions;
-  sampling.progress = [&] { progress(static_cast<double>(++rows) / options.resolution); };
-  return light(looks, environment, sampling);
-}
+// A BallStudio renders the balls of a preview, each by its own renderer.
+class BallStudio {
+ public:
+  explicit BallStudio(const SetPreviewOptions& options)
+      : options_(options), environment_(std::span(&options.light, 1), kPreviewLightRows) {}
+
+  // Returns a test for the models of a worker that can show maps, or of the built-in renderer.
+  ModelTest models_of(const std::string& worker, const std::string& option) {
+    if (worker.empty()) return is_linear_lobe;
+    std::vector<ModelDescription>& models = models_[worker];
+    if (models.empty()) models = options_.renderers->models_of(worker);
+    if (std::ranges::none_of(models, &ModelDescription::textures))
+      throw usage_error(
+          option + " " + worker +
+          ": this renderer shows no maps (choose one that `remapc renderers` lists with \"textures\")");
+    return [&models](const std::string& name) {
+      const auto found = std::ranges::find(models, name, &ModelDescription::name);
+      return found != models.end() && found->textures;
+    };
+  }
+
+  // Renders balls, and reports the finished fraction of the rows.
+  std::vector<std::vector<float>> render(std::span<const TexturedBall> balls,
+                                         const std::function<void(double)>& progress) {
+    std::vector<TexturedBall> own;
+    std::ranges::copy_if(balls, std::back_inserter(own), &std::string::empty, &TexturedBall::external);
+    std::vector<std::vector<float>> shaded =
+        own.empty() ? std::vector<std::vector<float>>{} : shade(own, progress);
+    std::vector<std::vector<float>> pictures;
+    auto next = shaded.begin();
+    for (const TexturedBall& ball : balls)
+      pictures.push_back(ball.external.empty() ? std::move(*next++) : render_by_worker(ball));
+    return pictures;
+  }
+
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  // Balls of the built-in renderer share their light directions.
+  std::vector<std::vector<float>> shade(std::span<const TexturedBall> balls,
+                                        const std::function<void(double)>& progress) const {
+    std::atomic<int> rows = 0;
+    SphereSampling sampling;
+    sampling.resolution = options_.resolution;
+    sampling.samples = options_.directions;
+    sampling.progress = [&] { progress(static_cast<double>(++rows) / options_.resolution); };
+    return render_textured(environment_, balls, sampling);
+  }
+
+  std::vector<float> render_by_worker(const TexturedBall& ball) {
+    Scene scene;
+    scene.resolution = options_.resolution;
+    scene.samples_per_axis = 1;
+    scene.environment = &options_.light.map;
+    scene.light_samples = options_.external_directions;
+    return render_external(*options_.renderers, models_.at(renderer_of(ball.external)), ball, scene, notes_);
+  }
+
+  const SetPreviewOptions& options_;
+  const RadiancePyramid environment_;
+  std::map<std::string, std::vector<ModelDescription>> models_;  // of the workers in use
+  std::vector<std::string> notes_;
+};
 
 std::string figure_text(const SetFigure& figure) {
   const auto text = [](const std::string& name, const PictureError& of) {
@@ -45,19 +101,19 @@ std::vector<MaterialLooks> first_looks(const ConvertPlan& plan, const JobLooks& 
 
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options) {
   if (plan.list.jobs.empty()) throw usage_error("preview: no texture set and no asset found");
-  const JobLooks looks(plan);
+  BallStudio studio(options);
+  const JobLooks looks(plan, studio.models_of(options.renderer_before, "--renderer-before"),
+                       studio.models_of(options.renderer_after, "--renderer-after"));
   const std::vector<MaterialLooks> shown = first_looks(plan, looks, options);
   if (shown.empty()) throw usage_error("preview: the conversion changes no material");
   const bool has_copies =
       std::ranges::any_of(shown, [](const auto& look) { return look.copied.has_value(); });
   SetPreview preview;
-  preview.notes = looks.notes();
   preview.copied_title = looks.copied_title();
   preview.labels.columns = {"source\n" + options.source};
   if (has_copies) preview.labels.columns.push_back(preview.copied_title + "\n" + options.target);
   preview.labels.columns.push_back("converted\n" + options.target);
   preview.sheet = contact_sheet(shown.size(), preview.labels.columns.size(), cell_side(options.resolution));
-  const RadiancePyramid environment(std::span(&options.light, 1), kPreviewLightRows);
   const std::vector<std::uint32_t> places =
       pixels_of_cell(shape_pixels(Shape::kSphere, options.resolution), options.resolution);
   for (std::size_t row = 0; row < shown.size(); ++row) {
@@ -65,7 +121,9 @@ SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& option
       if (options.progress)
         options.progress((static_cast<double>(row) + share) / static_cast<double>(shown.size()));
     };
-    const LitLooks pictures = lit(shown[row], environment, options, progress);
+    const LitLooks pictures = light(
+        shown[row], [&](std::span<const TexturedBall> balls) { return studio.render(balls, progress); },
+        options.resolution);
     for (std::size_t i = 0; i < pictures.pictures.size(); ++i) {
       const bool is_last = i + 1 == pictures.pictures.size();
       place_picture(&preview.sheet, cell_side(options.resolution), row,
@@ -74,6 +132,8 @@ SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& option
     preview.figures.push_back({shown[row].name, pictures.copied, pictures.converted});
     preview.labels.rows.push_back(figure_text(preview.figures.back()));
   }
+  preview.notes = looks.notes();
+  preview.notes.insert(preview.notes.end(), studio.notes().begin(), studio.notes().end());
   return preview;
 }
 

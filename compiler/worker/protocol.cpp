@@ -32,6 +32,7 @@ Json scene_json(const Scene& scene) {
         {"distance", distance},
         {"position", {distance * std::sin(angle), 0.0, distance * std::cos(angle)}},
         {"intensity", 1.0}}}};
+  if (scene.environment != nullptr) json["light"] = {{"samples", scene.light_samples}};
   if (scene.shape != Shape::kSphere) json["shape"] = shape_name(scene.shape);
   return json;
 }
@@ -43,8 +44,13 @@ std::string shown_request(const Material& material, const Scene& scene) {
     for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ":") + number_text(values[i]);
     text += ", ";
   }
+  for (const auto& [name, map] : material.maps)
+    text += name + " " + std::to_string(map.width) + " x " + std::to_string(map.height) + " texels, ";
   const std::string side = std::to_string(scene.resolution);
-  text += scene.light.angle == 0.0 ? light_name(scene.light) : "light " + light_name(scene.light);
+  if (scene.environment != nullptr)
+    text += "environment";
+  else
+    text += scene.light.angle == 0.0 ? light_name(scene.light) : "light " + light_name(scene.light);
   if (scene.shape != Shape::kSphere) text += ", " + shape_name(scene.shape);
   return text + ", " + side + " x " + side + (scene.seed == 0 ? "" : ", seed " + std::to_string(scene.seed));
 }
@@ -104,6 +110,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   }
   model.is_external = true;  // a worker is another process and uses files
   model.noise = field.flag("noise");
+  model.textures = field.flag("textures");
   return model;
 }
 
@@ -139,6 +146,9 @@ PictureRequest picture_request(const Material& material, const Scene& scene) {
     parameters[name] = values;
     if (values.size() > 1) request.channels = 3;
   }
+  for (const auto& [name, map] : material.maps) request.maps[name] = &map;
+  if (scene.environment != nullptr) request.maps[""] = scene.environment;
+  if (!request.maps.empty()) request.channels = 3;
   const Json json = {{"model", material.model},
                      {"parameters", parameters},
                      {"scene", scene_json(scene)},
@@ -155,9 +165,17 @@ std::string describe_line(std::int64_t id, unsigned threads) {
 }
 
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
-                        const std::filesystem::path& mesh) {
+                        const std::filesystem::path& mesh, const std::vector<std::filesystem::path>& maps) {
   Json json = {{"id", id}, {"request", "render"}};
   json.update(parse_json(request.text, "request"));
+  auto file = maps.begin();
+  for (const auto& [name, map] : request.maps) {
+    Json& place = name.empty() ? json["scene"]["light"] : json["parameters"][name];
+    place[name.empty() ? "environment" : "map"] = (file++)->string();
+    place["width"] = map->width;
+    place["height"] = map->height;
+    if (!name.empty()) place["channels"] = map->channels;
+  }
   if (request.shape != Shape::kSphere) json["scene"]["mesh"] = mesh.string();
   json["image"] = image.string();
   return json.dump();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,14 +29,19 @@ struct PictureRequest {
   int resolution = 0;
   Shape shape = Shape::kSphere;
   int channels = 1;  // 1 if every parameter is grey, otherwise 3
+  // Maps by the names of their parameters. An environment has an empty name. They must outlive the request,
+  // and are not part of `text`, so that pictures with maps are not kept.
+  std::map<std::string, const Image*> maps = {};
 };
 PictureRequest picture_request(const Material& material, const Scene& scene);
 
 // Return lines for a worker's standard input, without the line break.
 std::string describe_line(std::int64_t id, unsigned threads);
-// `mesh` is the file of the shape. The sphere needs no file.
+// `mesh` is the file of the shape. The sphere needs no file. `maps` are the files of the maps, in their
+// order.
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
-                        const std::filesystem::path& mesh);
+                        const std::filesystem::path& mesh,
+                        const std::vector<std::filesystem::path>& maps = {});
 std::string quit_line(std::int64_t id);
 
 // Returns true if a line is an answer. Other lines before the first answer are banners.

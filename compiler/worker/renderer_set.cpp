@@ -86,6 +86,15 @@ ModelDescription RendererSet::model(const std::string& name) const {
                                      " or of a connected renderer (" + advice + ")");
 }
 
+std::vector<ModelDescription> RendererSet::models_of(const std::string& worker) const {
+  std::vector<std::string> names;
+  for (const WorkerEntry& entry : workers_) names.push_back(entry.name);
+  if (std::ranges::find(names, worker) == names.end())
+    throw Error(ErrorKind::kUsage,
+                worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
+  return renderer_of(worker).models();
+}
+
 Image RendererSet::render(const Material& material, const Scene& scene) const {
   return renderer_of(material.model).render(material, scene);
 }

@@ -26,6 +26,8 @@ class RendererSet final : public Renderer {
   // Returns the built-in models and the models of workers that run already. Starts no worker.
   std::vector<ModelDescription> models() const override;
   ModelDescription model(const std::string& name) const override;
+  // Returns the models of one worker, which it starts. Throws kUsage if no worker has this name.
+  std::vector<ModelDescription> models_of(const std::string& worker) const;
   Image render(const Material& material, const Scene& scene) const override;
 
   // Counts the pictures of workers only.

@@ -1,6 +1,7 @@
 #include "worker/worker.hpp"
 
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/input_file.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -121,7 +122,16 @@ Image Worker::render(const PictureRequest& request) {
   const std::filesystem::path picture = own_file("-" + std::to_string(++last_id_) + ".f32"),
                               mesh = own_file(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
-  const std::string answer = ask(render_line(last_id_, request, picture, mesh), request.shown);
+  std::vector<std::filesystem::path> maps;
+  for (const auto& [name, map] : request.maps) {
+    maps.push_back(own_file("-" + std::to_string(last_id_) + "-" + std::to_string(maps.size()) + ".f32"));
+    write_file(maps.back(),
+               {reinterpret_cast<const char*>(map->values.data()), map->values.size() * sizeof(float)},
+               Flush::kNo);
+  }
+  const std::string answer = ask(render_line(last_id_, request, picture, mesh, maps), request.shown);
+  std::error_code ignored;
+  for (const std::filesystem::path& map : maps) std::filesystem::remove(map, ignored);
   std::optional<std::string> complaint;
   try {
     complaint = read_answer(answer, last_id_, context(request.shown));
@@ -132,7 +142,6 @@ Image Worker::render(const PictureRequest& request) {
   // match requests.
   if (complaint) throw input_error(message_of(request.shown, plain(*complaint, kLongestWhat)));
   Image image = read_picture(request, picture);
-  std::error_code ignored;
   std::filesystem::remove(picture, ignored);
   return image;
 }

@@ -155,6 +155,8 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
   if (scene.shape != Shape::kSphere && !description_.meshes)
     throw usage_error("worker " + entry_.name + ": renders spheres only, not a " + shape_name(scene.shape) +
                       " (use --shape sphere)");
+  if (scene.environment != nullptr && !model(material.model).textures)
+    throw usage_error(material.model + ": cannot be lit by an environment (choose another light)");
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   std::optional<Image> image = cached(request);
@@ -170,7 +172,7 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
 }
 
 std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const {
-  if (!cache_) return std::nullopt;
+  if (!cache_ || !request.maps.empty()) return std::nullopt;
   std::string damage;
   std::optional<Image> image = cache_->find(request, damage);
   if (!damage.empty() && damaged_++ == 0) warn_of_cache(damage + " (the picture is rendered again)");
@@ -178,7 +180,7 @@ std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const
 }
 
 void WorkerRenderer::keep(const PictureRequest& request, const Image& image) const {
-  if (!cache_ || !keeps_) return;
+  if (!cache_ || !keeps_ || !request.maps.empty()) return;
   try {
     cache_->keep(request, image);
   } catch (const Error& error) {

@@ -8,7 +8,6 @@
 #include "assets/gltf/material_textures.hpp"
 #include "core/errors.hpp"
 #include "core/json_spans.hpp"
-#include "look/brdf_models.hpp"
 
 namespace remap {
 namespace {
@@ -74,9 +73,9 @@ class GltfReader {
     return maps;
   }
 
-  TexturedBall ball(GltfWorkflow workflow, ScaledMaps maps) const {
+  TexturedBall ball(const ShownModel& model, GltfWorkflow workflow, ScaledMaps maps) const {
     const auto plain = converter_of(workflow, "specular", options_);
-    return ball_of(builtin_brdf("mitsuba/ggx"), converted(*plain, std::move(maps)));
+    return model.ball(std::nullopt, converted(*plain, std::move(maps)));
   }
 
  private:
@@ -99,22 +98,23 @@ class GltfReader {
 }  // namespace
 
 std::vector<MaterialLooks> gltf_looks(const GltfFile& source, const GltfFile& result,
+                                      const ShownModel& before, const ShownModel& after,
                                       const std::vector<AssetMaterial>& materials, int side,
                                       std::size_t most) {
-  GltfReader before(source), after(result);
+  GltfReader old_file(source), new_file(result);
   std::vector<MaterialLooks> looks;
   for (const AssetMaterial& material : materials) {
     if (material.state != MaterialState::kConverted || looks.size() == most) continue;
-    const SpanValue from = before.material(material.index), to = after.material(material.index);
+    const SpanValue from = old_file.material(material.index), to = new_file.material(material.index);
     const GltfWorkflow workflow = workflow_of(from), new_workflow = workflow_of(to);
     MaterialLooks shown;
     shown.name = material.name.empty() ? "material " + std::to_string(material.index) : material.name;
-    shown.before = before.maps(from, workflow, side);
-    shown.after = after.maps(to, new_workflow, side);
-    shown.source = before.ball(workflow, shown.before);
-    shown.converted = after.ball(new_workflow, shown.after);
+    shown.before = old_file.maps(from, workflow, side);
+    shown.after = new_file.maps(to, new_workflow, side);
+    shown.source = old_file.ball(before, workflow, shown.before);
+    shown.converted = new_file.ball(after, new_workflow, shown.after);
     if (constexpr auto kCore = GltfWorkflow::kMetalRough; workflow != kCore)
-      shown.copied = before.ball(kCore, before.maps(from, kCore, side));
+      shown.copied = old_file.ball(after, kCore, old_file.maps(from, kCore, side));
     looks.push_back(std::move(shown));
   }
   return looks;

@@ -18,9 +18,10 @@ struct GltfFile {
 
 // Returns the first `most` materials that a conversion changed, as both files describe them, with at most
 // about `side` texels a side. The copied look is what programs show that ignore
-// KHR_materials_pbrSpecularGlossiness, _specular and _ior; a source without these has none. Throws kInput for
-// a file or image that cannot be read.
+// KHR_materials_pbrSpecularGlossiness, _specular and _ior; a source without these has none. `before`
+// and `after` show GGX with F0, the model of glTF. Throws kInput for a file or image that cannot be read.
 std::vector<MaterialLooks> gltf_looks(const GltfFile& source, const GltfFile& result,
+                                      const ShownModel& before, const ShownModel& after,
                                       const std::vector<AssetMaterial>& materials, int side,
                                       std::size_t most);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "look/brdf.hpp"
@@ -77,11 +78,13 @@ struct BallTexel {
 };
 
 // A TexturedBall is a material of a built-in model whose parameters are maps, row by row from the top. The
-// maps cover the half of the ball that the camera sees.
+// maps cover the half of the ball that the camera sees: the point (x, y, z) has the texel at 1/2 + atan2(x,
+// z) / pi of the width and acos(y) / pi of the height, interpolated between the closest four.
 struct TexturedBall {
   BrdfModel model;
   int width = 0, height = 0;
   std::vector<BallTexel> texels;
+  std::string external = {};  // model of another renderer that shows this ball; `model` then has no meaning
 };
 
 // Renders `balls` under one environment. Returns linear RGB for each ball, for the pixels of

@@ -1,7 +1,6 @@
 #include "look/material_looks.hpp"
 
 #include "core/errors.hpp"
-#include "look/brdf_models.hpp"
 #include "look/image_similarity.hpp"
 #include "look/scene.hpp"
 
@@ -12,30 +11,29 @@ PictureError picture_error(const DisplayedSphere& source, const DisplayedSphere&
   return {sphere_similarity(source, other, pixels, resolution), rms_difference(source.colors, other.colors)};
 }
 
-LitLooks light(const MaterialLooks& looks, const RadiancePyramid& environment,
-               const SphereSampling& sampling) {
+LitLooks light(const MaterialLooks& looks, const BallRenderer& render, int resolution) {
   std::vector<TexturedBall> balls = {looks.source};
   if (looks.copied) balls.push_back(*looks.copied);
   balls.push_back(looks.converted);
-  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, sampling.resolution);
+  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, resolution);
   LitLooks lit;
-  for (const auto& picture : render_textured(environment, balls, sampling))
-    lit.pictures.push_back(displayed_sphere(picture, pixels, sampling.resolution));
+  for (const auto& picture : render(balls))
+    lit.pictures.push_back(displayed_sphere(picture, pixels, resolution));
   const auto error = [&](const DisplayedSphere& other) {
-    return picture_error(lit.pictures.front(), other, pixels, sampling.resolution);
+    return picture_error(lit.pictures.front(), other, pixels, resolution);
   };
   if (looks.copied) lit.copied = error(lit.pictures[1]);
   lit.converted = error(lit.pictures.back());
   return lit;
 }
 
-ShownModel::ShownModel(const std::string& model, const ConverterGraph& graph) : name_(model) {
-  if (is_linear_lobe(model)) return;
+ShownModel::ShownModel(const std::string& model, const ConverterGraph& graph, const ModelTest& has)
+    : name_(model) {
+  if (has(model)) return;
   std::vector<ConverterPath> paths;
   for (const std::string& other : graph.reachable_from(model))
-    if (is_linear_lobe(other)) paths.push_back(graph.find_paths({model, other, {}}).front());
-  if (paths.empty())
-    throw input_error(model + ": no built-in model is close to it, so that it cannot be shown");
+    if (has(other)) paths.push_back(graph.find_paths({model, other, {}}).front());
+  if (paths.empty()) throw input_error(model + ": no converter leads from it to a model that can be shown");
   const ConverterPath& closest = closest_path(paths);
   to_shown_ = make_chained_converter(closest.steps);
   name_ = target_model(closest);
@@ -53,7 +51,10 @@ TexturedBall ShownModel::ball(const std::optional<WorkflowEnd>& workflow, Scaled
     maps = converted(*to_shown_, std::move(maps));
     maps.rows[Parameter::kDiffuse] = std::move(diffuse);
   }
-  return ball_of(builtin_brdf(name_), std::move(maps));
+  const bool is_builtin = is_linear_lobe(name_);
+  TexturedBall ball = ball_of(is_builtin ? builtin_brdf(name_) : BrdfModel{}, std::move(maps));
+  if (!is_builtin) ball.external = name_;
+  return ball;
 }
 
 }  // namespace remap

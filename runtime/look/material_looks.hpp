@@ -2,10 +2,12 @@
 // the same numbers, and in the target's model with converted numbers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "look/brdf_models.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scaled_maps.hpp"
 #include "remap/path.hpp"
@@ -43,17 +45,23 @@ struct LitLooks {
 // smooth materials.
 inline constexpr int kPreviewLightRows = 256;
 
-LitLooks light(const MaterialLooks& looks, const RadiancePyramid& environment,
-               const SphereSampling& sampling);
+// Renders balls: returns linear RGB for each ball, for the pixels of shape_pixels(kSphere).
+using BallRenderer = std::function<std::vector<std::vector<float>>(std::span<const TexturedBall>)>;
 
-// A ShownModel is a BRDF model as the built-in renderer shows it. A model that it lacks is shown by the model
+LitLooks light(const MaterialLooks& looks, const BallRenderer& render, int resolution);
+
+// Decides whether a renderer has a model, by its name.
+using ModelTest = std::function<bool(const std::string&)>;
+
+// A ShownModel is a BRDF model as a renderer shows it. A model that the renderer lacks is shown by the model
 // that a converter of the graph matches best to it.
 class ShownModel {
  public:
-  // Throws kInput if no converter leads from the model to a built-in model.
-  ShownModel(const std::string& model, const ConverterGraph& graph);
+  // `has` are the models of the renderer, by default of the built-in one. Throws kInput if no converter leads
+  // from the model to one of them.
+  ShownModel(const std::string& model, const ConverterGraph& graph, const ModelTest& has = is_linear_lobe);
 
-  // Returns the name of the built-in model.
+  // Returns the name of the model that is shown.
   const std::string& name() const { return name_; }
   // Returns the ball of maps of a workflow over this model. Without one, they are roughness, specular,
   // diffuse.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "look/image.hpp"
 #include "remap/model.hpp"
 
 namespace remap {
@@ -38,6 +39,9 @@ struct Scene {
   Light light;
   int seed = 0;  // only for renderers with noise
   Shape shape = Shape::kSphere;
+  // If this is set, it lights the sphere instead of `light`: the map of an Environment (environment.hpp).
+  const Image* environment = nullptr;
+  int light_samples = 0;  // of the environment, for each pixel
   bool operator==(const Scene&) const = default;
 };
 

@@ -5,10 +5,12 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/remapc_session.hpp"
 #include "compiler/worker/fake_session.hpp"
 #include "core/owner_tag.hpp"
+#include "support/test_image.hpp"
 #include "worker/folders.hpp"
 
 using namespace remap;
@@ -67,6 +69,38 @@ TEST_CASE("remapc sweep: the time of the whole sweep is estimated once, after te
   CHECK(loud.errors.find(" in all\n", place) != std::string::npos);
   CHECK(loud.errors.find(line, place + 1) == std::string::npos);
   CHECK(require_success(session.remapc(sweep(fake, "b.csv") + "--jobs 1 --quiet")).errors.empty());
+}
+
+TEST_CASE("remapc preview: a worker shows the maps of a set as the built-in renderer shows them",
+          "[slow][needs]") {
+  const Session session;
+  const FakeSession fake;
+  const auto write = [&](const std::string& name, const std::vector<std::string>& channels,
+                         const TexelFunction& f) {
+    std::filesystem::create_directories(session.path("sets"));
+    write_image(session.path("sets/" + name), test_spec(32, 32, channels, OIIO::TypeUInt8), f);
+  };
+  write("tile_roughness.png", {"Y"}, [](int x, int, int) { return x < 16 ? 0.4f : 0.8f; });
+  write("tile_specular.png", {"R", "G", "B"},
+        [](int, int y, int c) { return y < 16 ? 0.9f : 0.2f + 0.2f * static_cast<float>(c); });
+  const auto preview = [&](const std::string& fault, const std::string& more) {
+    return session.remapc("preview sets --resolution 32 --directions 64 --json " + more +
+                          Words{"--worker", "mitsuba3=" + fake.command(fault, "--model mitsuba3/ggx")});
+  };
+  // Both have the same lobe, so that copied numbers give the same picture.
+  const std::string pair = "--from mitsuba/ggx-plain --to mitsuba3/ggx --renderer-after mitsuba3 ";
+  const auto figure = [&](const std::string& fault, const std::string& more) {
+    return nlohmann::json::parse(require_success(preview(fault, more)).output);
+  };
+  CHECK(figure("textures", pair + "-o sheet.png")["figures"][0]["copied"]["rms"].get<double>() < 2e-3);
+  CHECK(std::filesystem::exists(session.path("sheet.png")));
+  CHECK(figure("textures-flipped", pair)["figures"][0]["copied"]["rms"].get<double>() > 0.05);
+  const nlohmann::json other =
+      figure("textures",
+             "--from mitsuba/as --to mitsuba3/ggx --renderer-before mitsuba3 --renderer-after mitsuba3 ");
+  CHECK(other["notes"][0] == "mitsuba/as is shown as mitsuba3/ggx, the closest model of mitsuba3");
+  CHECK(fake.nobody_is_left());
+  check_failure(preview("", pair), 2, "--renderer-after mitsuba3: this renderer shows no maps (choose");
 }
 
 TEST_CASE("remapc preview: finds the worker of a model in the user's list", "[slow]") {

@@ -210,6 +210,8 @@ complete -c remapc -n '__fish_seen_subcommand_from preview' -l light -x -d 'Ligh
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l exposure -x -d 'Mean luminance of environments'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l diffuse -x -d 'Diffuse reflectance of all pictures, 0 to 1'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l resolution -x -d 'Width and height of each picture'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l renderer-before -x -d 'Renderer that shows the source: cycles-5, mitsuba3, threejs-r187, or a worker with maps'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l renderer-after -x -d 'Renderer that shows the copied numbers and the converted ones'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s h -l help -d 'Show this help'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l help-all -d 'Show all options'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l distance -x -d 'Distance of a light that is not an environment, in sphere radii'

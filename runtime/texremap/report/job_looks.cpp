@@ -40,6 +40,22 @@ std::string bytes_of(const AssetConversion& conversion, const ByteSource& source
   return bytes;
 }
 
+constexpr const char* kGltfBrdf = "mitsuba/ggx";
+
+std::string source_brdf(const ConvertPlan& plan) {
+  return plan.sets() != nullptr ? plan.sets()->chosen.choice.source_brdf : kGltfBrdf;
+}
+std::string target_brdf(const ConvertPlan& plan) {
+  return plan.sets() != nullptr ? plan.sets()->chosen.choice.target_brdf : kGltfBrdf;
+}
+
+// Returns the shipped converters. If they lack a model, it is of the user's converters.
+ConverterGraph graph_with(const std::string& model, const ConvertPlan& plan) {
+  ConverterGraph shipped = shipped_graph();
+  return plan.sets() == nullptr || shipped.has_model(model) ? std::move(shipped)
+                                                            : plan.sets()->converters.graph();
+}
+
 bool has_same_parameters(const ConversionChoice& workflow) {
   const auto &source = workflow.source, &target = workflow.target;
   return source.has_value() == target.has_value() && (!source || kind_of(*source) == kind_of(*target));
@@ -47,22 +63,25 @@ bool has_same_parameters(const ConversionChoice& workflow) {
 
 }  // namespace
 
-JobLooks::JobLooks(const ConvertPlan& plan) : plan_(plan) {
-  if (plan.sets() == nullptr) return;
-  const ConversionChoice& workflow = plan.sets()->chosen.choice;
-  const ConverterGraph graph = shipped_graph();
-  ends_.emplace(ShownEnds{ShownModel(workflow.source_brdf, graph), ShownModel(workflow.target_brdf, graph)});
+JobLooks::JobLooks(const ConvertPlan& plan, const ModelTest& before, const ModelTest& after)
+    : plan_(plan),
+      source_(source_brdf(plan), graph_with(source_brdf(plan), plan), before),
+      target_(target_brdf(plan), graph_with(target_brdf(plan), plan), after) {
   const auto note = [&](const std::string& model, const ShownModel& shown) {
-    const std::string text = model + " is shown as " + shown.name() + ", the closest built-in model";
+    const std::string of = is_linear_lobe(shown.name()) ? "the closest built-in model"
+                                                        : "the closest model of " + renderer_of(shown.name());
+    const std::string text = model + " is shown as " + shown.name() + ", " + of;
     if (model != shown.name() && (notes_.empty() || notes_.back() != text)) notes_.push_back(text);
   };
-  note(workflow.source_brdf, ends_->source);
-  note(workflow.target_brdf, ends_->target);
-  if (workflow.translation)
+  note(source_brdf(plan), source_);
+  note(target_brdf(plan), target_);
+  if (plan.sets() != nullptr && plan.sets()->chosen.choice.translation)
     notes_.emplace_back("layers over the base, such as coats and sheen, are not shown");
 }
 
-std::string JobLooks::copied_title() const { return ends_ ? "numbers copied" : "without conversion"; }
+std::string JobLooks::copied_title() const {
+  return plan_.sets() != nullptr ? "numbers copied" : "without conversion";
+}
 
 std::vector<MaterialLooks> JobLooks::of(const Job& job, int side, std::size_t most) const {
   if (const auto* asset = std::get_if<AssetWork>(&job.work)) return of_asset(*asset, side, most);
@@ -78,9 +97,9 @@ MaterialLooks JobLooks::of_set(const Job& job, int side) const {
   if (!job.tile.empty()) looks.name += " " + job.tile;
   looks.before = scaled_maps(set, chosen.info().source.roughness, side);
   looks.after = converted(chosen.converter(), looks.before);
-  looks.source = ends_->source.ball(workflow.source, looks.before);
-  looks.converted = ends_->target.ball(workflow.target, looks.after);
-  if (has_same_parameters(workflow)) looks.copied = ends_->target.ball(workflow.target, looks.before);
+  looks.source = source_.ball(workflow.source, looks.before);
+  looks.converted = target_.ball(workflow.target, looks.after);
+  if (has_same_parameters(workflow)) looks.copied = target_.ball(workflow.target, looks.before);
   return looks;
 }
 
@@ -95,7 +114,7 @@ std::vector<MaterialLooks> JobLooks::of_asset(const AssetWork& asset, int side, 
   if (!conversion.changed) return {};
   const ResultResources result_files(files, conversion);
   const std::string bytes = bytes_of(conversion, source);
-  return gltf_looks({source, context, files}, {MemorySource(bytes), context, result_files},
+  return gltf_looks({source, context, files}, {MemorySource(bytes), context, result_files}, source_, target_,
                     conversion.materials, side, most);
 }
 

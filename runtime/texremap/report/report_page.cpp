@@ -314,9 +314,12 @@ class ReportPage {
       sampling.resolution = kStillSide;
       sampling.samples = kStillDirections;
       sampling.jobs = 1;
+      const auto render = [&](std::span<const TexturedBall> balls) {
+        return render_textured(pyramid_, balls, sampling);
+      };
       for (const MaterialLooks& looks : looks_.of(job, side_, kMostMaterials))
         shown.materials.push_back(
-            material_json(looks, looks_, light(looks, pyramid_, sampling), shown.images).dump());
+            material_json(looks, looks_, light(looks, render, kStillSide), shown.images).dump());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
       shown.trouble = error.what();

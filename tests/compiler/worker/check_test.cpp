@@ -48,6 +48,17 @@ TEST_CASE("check.py: a good worker passes every check", "[slow]") {
   }
 }
 
+TEST_CASE("check.py: a worker that shows maps passes, and maps and light in wrong places are found",
+          "[slow]") {
+  const FakeSession session;
+  const ProcessResult result = check(session.command("textures"));
+  INFO(result.output << result.errors);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("light front"));
+  CHECK_THAT(wrong_words("textures-flipped"), Contains("map top: the top of a map is not at the top"));
+  CHECK_THAT(wrong_words("textures-behind"), Contains("light front: the +z of an environment"));
+}
+
 TEST_CASE("check.py: the example passes") {
   CHECK(check("python3 " REMAP_SOURCE_DIR "/examples/lambert_worker.py").exit_code == 0);
 }

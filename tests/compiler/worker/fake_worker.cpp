@@ -1,8 +1,9 @@
 // This program is a worker with a chosen fault. It renders the built-in GGX behind the protocol, and shares
 // no protocol code with the code under test.
 //
-//   fake_worker [--fault NAME] [--after N] [--of all] [--version TEXT] [--log FILE]
+//   fake_worker [--fault NAME] [--after N] [--of all] [--version TEXT] [--log FILE] [--model NAME]
 //
+// With a fault that begins with `textures`, the model accepts maps and environments.
 // The fault occurs at the picture after the first N of this process, or with `--of all`, of all processes in
 // the log. The log gets two lines for each picture (its file, its parameters), the process ids of the worker
 // and of its children, and at the start of each worker the number of workers that run.
@@ -22,19 +23,23 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/renderer/oren_nayar.hpp"
+#include "look/brdf_models.hpp"
+#include "look/material_looks.hpp"
 #include "renderer/renderer.hpp"
 
 namespace {
 
 using nlohmann::json;
 
-std::map<std::string, std::string> options = {
-    {"fault", ""}, {"after", "0"}, {"of", "one"}, {"version", "1"}, {"log", ""}};
+std::map<std::string, std::string> options = {{"fault", ""},    {"after", "0"}, {"of", "one"},
+                                              {"version", "1"}, {"log", ""},    {"model", "fake/ggx"}};
 int rendered = 0;
 
 bool has_fault(const std::string& name) {
   return options["fault"] == name && rendered >= std::stoi(options["after"]);
 }
+
+bool has_textures() { return options["fault"].starts_with("textures"); }
 
 void log_line(const std::string& line) {
   if (!options["log"].empty()) std::ofstream(options["log"], std::ios::app) << line << std::endl;
@@ -62,7 +67,8 @@ json description(const json& request) {
   json alpha = parameter("alpha", "roughness", 1e-4, 1.0), tint = parameter("tint", "other", 0.0, 1.0);
   alpha["convention"] = has_fault("convention") ? "width" : "alpha";
   tint["default"] = 0.5;
-  const json model = {{"name", has_fault("prefix") ? "other/ggx" : "fake/ggx"},
+  const json model = {{"name", has_fault("prefix") ? "other/ggx" : options["model"]},
+                      {"textures", has_textures()},
                       {"parameters",
                        {alpha, parameter("specular", "specular", 0.0, 1.0),
                         parameter("diffuse", "diffuse", 0.0, 1.0), tint}}};
@@ -149,7 +155,104 @@ std::string mesh_report(const std::string& path) {
   return std::string(complete ? "complete" : "broken") + (worst < 1e-6 ? " exact" : " off");
 }
 
+// Returns the map of a file, or one texel for a list of numbers.
+remap::Image map_of(const json& value, const char* file) {
+  if (value.is_array()) return {1, 1, static_cast<int>(value.size()), value.get<std::vector<float>>()};
+  remap::Image map{value.at("width"), value.at("height"), value.value("channels", 3), {}};
+  map.values.resize(static_cast<std::size_t>(map.width * map.height * map.channels));
+  std::ifstream input(value.at(file).get<std::string>(), std::ios::binary);
+  input.read(reinterpret_cast<char*>(map.values.data()),
+             static_cast<std::streamsize>(map.values.size() * sizeof(float)));
+  if (!input || input.peek() != EOF) throw std::runtime_error("a map has another size");
+  return map;
+}
+
+// Returns a material of maps. All maps of more than one texel have one size.
+remap::TexturedBall ball_of_request(const json& values) {
+  const std::map<std::string, remap::Image> maps = {{"alpha", map_of(values.at("alpha"), "map")},
+                                                    {"specular", map_of(values.at("specular"), "map")},
+                                                    {"diffuse", map_of(values.at("diffuse"), "map")}};
+  remap::TexturedBall ball{remap::builtin_brdf("mitsuba/ggx-plain"), 1, 1, {}};
+  for (const auto& [name, map] : maps)
+    if (map.width * map.height > 1) ball.width = map.width, ball.height = map.height;
+  for (int row = 0; row < ball.height; ++row)
+    for (int column = 0; column < ball.width; ++column) {
+      const auto at = [&](const char* name, std::size_t channel) {
+        const remap::Image& map = maps.at(name);
+        const int y = has_fault("textures-flipped") ? ball.height - 1 - row : row;
+        const auto texel = static_cast<std::size_t>(map.width > 1 ? y * map.width + column : 0);
+        const auto channels = static_cast<std::size_t>(map.channels);
+        return static_cast<double>(map.values[texel * channels + channel % channels]);
+      };
+      ball.texels.push_back({at("alpha", 0),
+                             {at("specular", 0), at("specular", 1), at("specular", 2)},
+                             {at("diffuse", 0), at("diffuse", 1), at("diffuse", 2)}});
+    }
+  return ball;
+}
+
+remap::Image lit_by_environment(const json& request) {
+  const json &scene = request.at("scene"), &light = scene.at("light");
+  remap::Environment environment{"", map_of(light, "environment")};
+  if (has_fault("textures-behind")) {
+    auto& values = environment.map.values;  // turned by half a turn
+    const auto row = static_cast<std::ptrdiff_t>(3 * environment.map.width);
+    for (auto begin = values.begin(); begin != values.end(); begin += row)
+      std::rotate(begin, begin + row / 2, begin + row);
+  }
+  remap::SphereSampling sampling;
+  sampling.resolution = scene.at("resolution");
+  sampling.samples = light.at("samples");
+  const remap::RadiancePyramid pyramid(std::span(&environment, 1), remap::kPreviewLightRows);
+  const remap::TexturedBall ball = ball_of_request(request.at("parameters"));
+  const std::vector<float> radiance = remap::render_textured(pyramid, std::span(&ball, 1), sampling).front();
+  const std::vector<std::uint32_t> pixels = remap::shape_pixels(remap::Shape::kSphere, sampling.resolution);
+  remap::Image image{sampling.resolution, sampling.resolution, 3, {}};
+  image.values.resize(static_cast<std::size_t>(3 * image.width * image.height));
+  for (std::size_t i = 0; i < radiance.size(); ++i) image.values[3 * pixels[i / 3] + i % 3] = radiance[i];
+  return image;
+}
+
+// Renders maps under the point light: a picture for each texel, from which each pixel takes the closest
+// texel's.
+remap::Image lit_by_lamp(const json& request) {
+  const json& scene = request.at("scene");
+  const remap::Scene place{scene.at("resolution"),
+                           scene.at("samples_per_axis"),
+                           {scene.at("light").at("angle"), scene.at("light").at("distance")}};
+  const remap::TexturedBall ball = ball_of_request(request.at("parameters"));
+  const auto renderer = remap::make_builtin_renderer();
+  std::vector<remap::Image> pictures;
+  for (const remap::BallTexel& texel : ball.texels) {
+    const auto list = [](const remap::Rgb& rgb) { return std::vector<double>(rgb.begin(), rgb.end()); };
+    pictures.push_back(renderer->render(
+        {"mitsuba/ggx-plain",
+         {{"alpha", {texel.alpha}}, {"specular", list(texel.specular)}, {"diffuse", list(texel.diffuse)}}},
+        place));
+  }
+  remap::Image image{place.resolution, place.resolution, 3, std::vector<float>(pictures[0].values.size())};
+  for (int i = 0; i < place.resolution * place.resolution; ++i) {
+    remap::SurfacePoint p{};
+    if (!remap::sphere_point(place.resolution, i % place.resolution + 0.5, i / place.resolution + 0.5, &p))
+      continue;
+    const double u = 0.5 + std::atan2(p.x, p.z) / 3.14159265358979, v = std::acos(p.y) / 3.14159265358979;
+    const int texel = std::min(static_cast<int>(v * ball.height), ball.height - 1) * ball.width +
+                      std::clamp(static_cast<int>(u * ball.width), 0, ball.width - 1);
+    for (int c = 0; c < 3; ++c) {
+      const auto value = static_cast<std::size_t>(3 * i + c);
+      image.values[value] = pictures[static_cast<std::size_t>(texel)].values[value];
+    }
+  }
+  return image;
+}
+
 remap::Image picture(const json& request) {
+  if (request.at("model") != options["model"])
+    throw std::runtime_error("unknown model (choose " + options["model"] + ")");
+  const json& given = request.at("parameters");
+  if (request.at("scene").at("light").contains("environment")) return lit_by_environment(request);
+  if (std::any_of(given.begin(), given.end(), [](const json& value) { return value.is_object(); }))
+    return lit_by_lamp(request);
   const json &values = request.at("parameters"), &scene = request.at("scene");
   remap::Scene place{scene.at("resolution"),
                      scene.at("samples_per_axis"),
@@ -162,7 +265,6 @@ remap::Image picture(const json& request) {
   if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;
   if (has_fault("no-square")) place.light.distance = 3.0;
   remap::Material material{"mitsuba/ggx-plain", {}};
-  if (request.at("model") != "fake/ggx") throw std::runtime_error("unknown model (choose fake/ggx)");
   for (const char* name : {"alpha", "specular", "diffuse"})
     material.parameters[name] = values.at(name).get<std::vector<double>>();
   values.at("tint");
