@@ -108,7 +108,8 @@ PreviewOptions with_lights(const Command& given, const PreviewCommand& command, 
 Json figure_json(const SetFigure& figure) {
   return {{"name", figure.name},
           {"copied", figure.copied ? similarity_json(*figure.copied) : Json()},
-          {"converted", similarity_json(figure.converted)}};
+          {"converted", similarity_json(figure.converted)},
+          {"outside_domain", figure.outside}};
 }
 
 void print(const SetFigure& figure, const std::string& copied) {
@@ -116,7 +117,11 @@ void print(const SetFigure& figure, const std::string& copied) {
     return "error " + fixed(100.0 * of.rms, 2) + " %, SSIM " + fixed(of.ssim, 4);
   };
   std::cout << figure.name << ": converted " << text(figure.converted)
-            << (figure.copied ? "; " + copied + " " + text(*figure.copied) : "") << "\n";
+            << (figure.copied ? "; " + copied + " " + text(*figure.copied) : "")
+            << (figure.outside > 0.0
+                    ? "; " + fixed(100.0 * figure.outside, 1) + " % of the texels outside the domain"
+                    : "")
+            << "\n";
 }
 
 // Interprets the conversion like `texremap convert`, but writes nothing.

@@ -36,13 +36,19 @@ class BallStudio {
     };
   }
 
-  // Renders balls, and reports the finished fraction of the rows.
-  std::vector<std::vector<float>> render(std::span<const TexturedBall> balls,
+  // Renders balls, and reports the finished fraction of the rows. Balls of workers have no normal maps, and
+  // the balls beside them then have none either.
+  std::vector<std::vector<float>> render(std::span<const TexturedBall> balls, const Image& normals,
                                          const std::function<void(double)>& progress) {
     std::vector<TexturedBall> own;
     std::ranges::copy_if(balls, std::back_inserter(own), &std::string::empty, &TexturedBall::external);
     std::vector<std::vector<float>> shaded =
-        own.empty() ? std::vector<std::vector<float>>{} : shade(own, progress);
+        own.empty() ? std::vector<std::vector<float>>{}
+                    : shade(own, own.size() == balls.size() ? normals : Image(), progress);
+    const std::string flat = "normal maps are not shown, because they are not passed to other renderers";
+    if (own.size() < balls.size() && !normals.values.empty() &&
+        std::ranges::find(notes_, flat) == notes_.end())
+      notes_.push_back(flat);
     std::vector<std::vector<float>> pictures;
     auto next = shaded.begin();
     for (const TexturedBall& ball : balls)
@@ -54,14 +60,14 @@ class BallStudio {
 
  private:
   // Balls of the built-in renderer share their light directions.
-  std::vector<std::vector<float>> shade(std::span<const TexturedBall> balls,
+  std::vector<std::vector<float>> shade(std::span<const TexturedBall> balls, const Image& normals,
                                         const std::function<void(double)>& progress) const {
     std::atomic<int> rows = 0;
     SphereSampling sampling;
     sampling.resolution = options_.resolution;
     sampling.samples = options_.directions;
     sampling.progress = [&] { progress(static_cast<double>(++rows) / options_.resolution); };
-    return render_textured(environment_, balls, sampling);
+    return render_textured(environment_, balls, normals, sampling);
   }
 
   std::vector<float> render_by_worker(const TexturedBall& ball) {
@@ -122,14 +128,17 @@ SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& option
         options.progress((static_cast<double>(row) + share) / static_cast<double>(shown.size()));
     };
     const LitLooks pictures = light(
-        shown[row], [&](std::span<const TexturedBall> balls) { return studio.render(balls, progress); },
+        shown[row],
+        [&](std::span<const TexturedBall> balls, const Image& normals) {
+          return studio.render(balls, normals, progress);
+        },
         options.resolution);
     for (std::size_t i = 0; i < pictures.pictures.size(); ++i) {
       const bool is_last = i + 1 == pictures.pictures.size();
       place_picture(&preview.sheet, cell_side(options.resolution), row,
                     is_last ? preview.labels.columns.size() - 1 : i, places, pictures.pictures[i].colors);
     }
-    preview.figures.push_back({shown[row].name, pictures.copied, pictures.converted});
+    preview.figures.push_back({shown[row].name, pictures.copied, pictures.converted, shown[row].outside});
     preview.labels.rows.push_back(figure_text(preview.figures.back()));
   }
   preview.notes = looks.notes();

@@ -34,6 +34,7 @@ struct SetFigure {
   std::string name;
   std::optional<PictureError> copied;  // none if source and target have other parameters
   PictureError converted;
+  double outside = 0.0;  // MaterialLooks::outside
 };
 
 struct SetPreview {
@@ -45,8 +46,8 @@ struct SetPreview {
 };
 
 // Previews the first sets of a plan. Their maps are scaled down to the size of the picture. If a renderer
-// lacks a model, it shows the model that a shipped converter matches best to it. Normal maps and opacity are
-// not shown. Throws kInput if a map cannot be read or a worker fails. Throws kUsage if the plan has no
+// lacks a model, it shows the model that a shipped converter matches best to it. Opacity is not
+// shown. Throws kInput if a map cannot be read or a worker fails. Throws kUsage if the plan has no
 // texture set, and for a worker that is unknown or has no model with textures.
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options);
 

@@ -1,11 +1,14 @@
 #include "look/gltf_looks.hpp"
 
+#include <array>
+
 #include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_images.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
 #include "assets/gltf/gltf_workflow.hpp"
 #include "assets/gltf/material_textures.hpp"
+#include "assets/maps/map_pixels.hpp"
 #include "core/errors.hpp"
 #include "core/json_spans.hpp"
 
@@ -73,6 +76,25 @@ class GltfReader {
     return maps;
   }
 
+  // Returns the normals of a material, at most about `side` texels a side, or an image without values.
+  Image normals(SpanValue text, int side) {
+    constexpr std::array kInputs = {GltfInput::kNormal};
+    std::vector<std::string> ignored;
+    const GltfMaterial material = read_inputs(text, kInputs, ignored);
+    const SpanValue info = material[GltfInput::kNormal].texture;
+    if (!info) return {};
+    const UsedTexture texture = textures_.load(info, GltfInput::kNormal);
+    const ImagePixels& pixels = texture.pixels();
+    if (pixels.is_grey()) return {};
+    SourceParameter stored = color_source(&pixels, {1.0, 1.0, 1.0}, "normal");
+    stored.transfer = Transfer::kLinear;
+    const auto width = static_cast<int>(pixels.width), height = static_cast<int>(pixels.height);
+    ScaledMaps scaled = ScaledMaps::cells_of(width, height, side);
+    add_rows(stored, Parameter::kDiffuse, width, height, scaled);  // counts as a color
+    return normals_of(scaled.rows.at(Parameter::kDiffuse), scaled.width, material.number(GltfInput::kNormal),
+                      NormalGreen::kUp);
+  }
+
   TexturedBall ball(const ShownModel& model, GltfWorkflow workflow, ScaledMaps maps) const {
     const auto plain = converter_of(workflow, "specular", options_);
     return model.ball(std::nullopt, converted(*plain, std::move(maps)));
@@ -109,6 +131,7 @@ std::vector<MaterialLooks> gltf_looks(const GltfFile& source, const GltfFile& re
     const GltfWorkflow workflow = workflow_of(from), new_workflow = workflow_of(to);
     MaterialLooks shown;
     shown.name = material.name.empty() ? "material " + std::to_string(material.index) : material.name;
+    shown.normals = old_file.normals(from, side);
     shown.before = old_file.maps(from, workflow, side);
     shown.after = new_file.maps(to, new_workflow, side);
     shown.source = old_file.ball(before, workflow, shown.before);

@@ -27,13 +27,20 @@ struct Frame {
   Vector3 to_world(double x, double y, double z) const { return x * tangent + (y * bitangent + z * normal); }
 };
 
-// Returns an arbitrary frame, because lobes are isotropic. The normal of a visible point has z > 0.
+// Returns a frame whose tangent leads along the rows of maps, to the right. Lobes need no certain frame,
+// because they are isotropic.
 Frame frame_about(const Vector3& n) {
-  const Vector3 tangent = normalised({n.z, 0.0, -n.x});
+  const bool is_pole = n.x == 0.0 && n.z == 0.0;
+  const Vector3 tangent = is_pole ? Vector3{1.0, 0.0, 0.0} : normalised({n.z, 0.0, -n.x});
   return {tangent,
           {n.y * tangent.z - n.z * tangent.y, n.z * tangent.x - n.x * tangent.z,
            n.x * tangent.y - n.y * tangent.x},
           n};
+}
+
+// Returns the direction from a point to the camera.
+Vector3 view_from(const Vector3& point) {
+  return normalised({-point.x, -point.y, kCameraDistance - point.z});
 }
 
 // Returns a pseudo-random number in [0, 1) for a key (finalizer of splitmix64, Steele et al. 2014).
@@ -101,11 +108,8 @@ bool is_lit(const Vector3& normal, const Vector3& view, const Vector3& light, Lo
 // A PixelSampler draws the directions of one pixel.
 class PixelSampler {
  public:
-  PixelSampler(const Mixture& mixture, const Vector3& point, std::uint64_t key)
-      : mixture_(mixture),
-        frame_(frame_about({point.x, point.y, point.z})),
-        view_(normalised({-point.x, -point.y, kCameraDistance - point.z})),
-        key_(key) {}
+  PixelSampler(const Mixture& mixture, const Vector3& normal, const Vector3& view, std::uint64_t key)
+      : mixture_(mixture), frame_(frame_about(normal)), view_(view), key_(key) {}
 
   const Mixture& mixture() const { return mixture_; }
   const Vector3& normal() const { return frame_.normal; }
@@ -174,26 +178,48 @@ void require(const SphereSampling& sampling) {
                                        " is out of range (16 to " + std::to_string(1 << 20) + ")");
 }
 
-// Returns the texel that the camera sees at a point of the ball, interpolated between the closest four.
-BallTexel texel_at(const TexturedBall& ball, const Vector3& point) {
+// Calls take(index, share) for the texels of a map that are closest to a point of the ball.
+void for_closest_texels(int width, int height, const Vector3& point, const auto& take) {
   const double u = 0.5 + std::atan2(point.x, point.z) / pi,
                v = std::acos(std::clamp(point.y, -1.0, 1.0)) / pi;
-  const double x = std::clamp(u * ball.width - 0.5, 0.0, ball.width - 1.0),
-               y = std::clamp(v * ball.height - 0.5, 0.0, ball.height - 1.0);
+  const double x = std::clamp(u * width - 0.5, 0.0, width - 1.0),
+               y = std::clamp(v * height - 0.5, 0.0, height - 1.0);
   const int left = static_cast<int>(x), top = static_cast<int>(y);
-  BallTexel mean;
   for (int corner = 0; corner < 4; ++corner) {
     const int column = left + corner % 2, row = top + corner / 2;
     const double share = (1.0 - std::abs(x - column)) * (1.0 - std::abs(y - row));
-    if (share <= 0.0) continue;  // skips weights of 0, which may be beyond the last column or row
-    const BallTexel& texel = ball.texels[static_cast<std::size_t>(row * ball.width + column)];
+    // Weights of 0 may be beyond the last column or row.
+    if (share > 0.0) take(static_cast<std::size_t>(row * width + column), share);
+  }
+}
+
+// Returns the texel that the camera sees at a point of the ball, interpolated between the closest four.
+BallTexel texel_at(const TexturedBall& ball, const Vector3& point) {
+  BallTexel mean;
+  for_closest_texels(ball.width, ball.height, point, [&](std::size_t index, double share) {
+    const BallTexel& texel = ball.texels[index];
     mean.alpha += share * texel.alpha;
     for (std::size_t c = 0; c < 3; ++c) {
       mean.specular[c] += share * texel.specular[c];
       mean.diffuse[c] += share * texel.diffuse[c];
     }
-  }
+  });
   return mean;
+}
+
+// Returns the normal at a point of the ball. A normal that the camera would see from behind is turned until
+// it faces the camera. web/viewer/shading.glsl does the same.
+Vector3 bent_normal(const Image& normals, const Vector3& point, const Vector3& view) {
+  constexpr double kLeastCosine = 0.05;  // between the normal and the surface, or the camera
+  if (normals.values.empty()) return point;
+  std::array<double, 3> bent{};
+  for_closest_texels(normals.width, normals.height, point, [&](std::size_t index, double share) {
+    for (std::size_t c = 0; c < 3; ++c) bent[c] += share * static_cast<double>(normals.values[3 * index + c]);
+  });
+  const Vector3 normal =
+      normalised(frame_about(point).to_world(bent[0], bent[1], std::max(bent[2], kLeastCosine)));
+  const double missing = kLeastCosine - dot(normal, view);
+  return missing > 0.0 ? normalised(normal + missing * view) : normal;
 }
 
 void add_lamps(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
@@ -279,7 +305,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
     for (auto pixel = begin; pixel != end; ++pixel) {
       Vector3 point;
       sphere_point(sampling.resolution, *pixel % side + 0.5, static_cast<double>(row) + 0.5, &point);
-      const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *pixel);
+      const PixelSampler sampler(mixture, point, view_from(point), sampling.shares_directions ? 0 : *pixel);
       const auto place = static_cast<std::size_t>(pixel - pixels.begin());
       add_lamps(environments, materials, sampler, place, &pictures);
       add_samples(environments, materials, sampler, place, &pictures);
@@ -326,7 +352,7 @@ void add_light(const RadiancePyramid& environment, BallPixel& pixel) {
 }  // namespace
 
 std::vector<std::vector<float>> render_textured(const RadiancePyramid& environment,
-                                                std::span<const TexturedBall> balls,
+                                                std::span<const TexturedBall> balls, const Image& normals,
                                                 const SphereSampling& sampling) {
   require(sampling);
   const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, sampling.resolution);
@@ -341,7 +367,9 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
       std::vector<BallTexel> texels;
       for (const TexturedBall& ball : balls) texels.push_back(texel_at(ball, point));
       const Mixture mixture = mixture_for(texels, sampling.samples);
-      const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *place);
+      const Vector3 view = view_from(point);
+      const PixelSampler sampler(mixture, bent_normal(normals, point, view), view,
+                                 sampling.shares_directions ? 0 : *place);
       BallPixel pixel{sampler, balls, texels, std::vector<Rgb>(balls.size())};
       add_light(environment, pixel);
       for (std::size_t b = 0; b < balls.size(); ++b)

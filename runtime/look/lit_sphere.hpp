@@ -88,9 +88,11 @@ struct TexturedBall {
 };
 
 // Renders `balls` under one environment. Returns linear RGB for each ball, for the pixels of
-// shape_pixels(kSphere). All balls have the same directions, as in render_spheres(). Throws the same errors.
+// shape_pixels(kSphere). All balls have the same directions, as in render_spheres(). `normals` bend the
+// normals of all balls: for each texel x to the right, y up and z out of the surface, placed like the texels
+// of the balls. An image without values bends nothing. Throws the errors of render_spheres().
 std::vector<std::vector<float>> render_textured(const RadiancePyramid& environment,
-                                                std::span<const TexturedBall> balls,
+                                                std::span<const TexturedBall> balls, const Image& normals,
                                                 const SphereSampling& sampling);
 
 // Converts linear values to display values (look/image_similarity.hpp).

@@ -17,7 +17,7 @@ LitLooks light(const MaterialLooks& looks, const BallRenderer& render, int resol
   balls.push_back(looks.converted);
   const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, resolution);
   LitLooks lit;
-  for (const auto& picture : render(balls))
+  for (const auto& picture : render(balls, looks.normals))
     lit.pictures.push_back(displayed_sphere(picture, pixels, resolution));
   const auto error = [&](const DisplayedSphere& other) {
     return picture_error(lit.pictures.front(), other, pixels, resolution);

@@ -21,7 +21,9 @@ struct MaterialLooks {
   TexturedBall source;
   std::optional<TexturedBall> copied;  // none if source and target have other parameters
   TexturedBall converted;
+  Image normals;             // of all balls (render_textured); no values without a normal map
   ScaledMaps before, after;  // in the parameters of source and target
+  double outside = 0.0;  // fraction of the texels outside of the range that the conversion was measured for
 };
 
 // A PictureError compares a picture with the source's, in display values (sRGB) over the pixels that show the
@@ -45,8 +47,9 @@ struct LitLooks {
 // smooth materials.
 inline constexpr int kPreviewLightRows = 256;
 
-// Renders balls: returns linear RGB for each ball, for the pixels of shape_pixels(kSphere).
-using BallRenderer = std::function<std::vector<std::vector<float>>(std::span<const TexturedBall>)>;
+// Renders balls with normals: returns linear RGB for each ball, for the pixels of shape_pixels(kSphere).
+using BallRenderer =
+    std::function<std::vector<std::vector<float>>(std::span<const TexturedBall> balls, const Image& normals)>;
 
 LitLooks light(const MaterialLooks& looks, const BallRenderer& render, int resolution);
 

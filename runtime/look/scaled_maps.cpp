@@ -1,6 +1,8 @@
 #include "look/scaled_maps.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "convert/linear_values.hpp"
 
@@ -70,7 +72,7 @@ ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side) {
   return scaled;
 }
 
-ScaledMaps converted(const Converter& converter, ScaledMaps maps) {
+ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outside) {
   change_convention(maps.encoding, converter.info().source.roughness,
                     maps.rows.at(Parameter::kRoughness).front());
   MaterialRows<const float> in;
@@ -88,8 +90,38 @@ ScaledMaps converted(const Converter& converter, ScaledMaps maps) {
     out[parameter].count = rows.size();
     for (std::size_t c = 0; c < rows.size(); ++c) out[parameter].row[c] = rows[c].data();
   }
-  converter.convert(maps.count(), in, out);
+  const std::size_t count = converter.convert(maps.count(), in, out);
+  if (outside != nullptr) *outside = static_cast<double>(count) / static_cast<double>(maps.count());
   return result;
+}
+
+Image normals_of(const std::vector<std::vector<float>>& stored, int width, double scale, NormalGreen green) {
+  const bool has_sign = std::ranges::any_of(stored, [](const auto& row) {
+    return std::ranges::any_of(row, [](float value) { return value < 0.0f; });
+  });
+  const std::size_t count = stored.front().size();
+  Image normals{width, static_cast<int>(count / static_cast<std::size_t>(width)), 3, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<double, 3> normal{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = static_cast<double>(stored[c][i]);
+      normal[c] = (has_sign ? value : 2.0 * value - 1.0) * (c < 2 ? scale : 1.0);
+    }
+    if (green == NormalGreen::kDown) normal[1] = -normal[1];
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    for (const double value : normal)
+      normals.values.push_back(static_cast<float>(length > 0.0 ? value / length : 0.0));
+  }
+  return normals;
+}
+
+Image read_normals(const std::filesystem::path& file, NormalGreen green, int side) {
+  TextureSetRequest request;  // the stored values count as a linear color
+  request.parameters[Parameter::kDiffuse] = {MapName{file, {}}, {}, Transfer::kLinear};
+  TextureSet set = open_texture_set(request);
+  if (set.parameters.at(Parameter::kDiffuse).channels.size() < 3) return {};
+  const ScaledMaps stored = scaled_maps(set, RoughnessEncoding::kRoughness, side);
+  return normals_of(stored.rows.at(Parameter::kDiffuse), stored.width, 1.0, green);
 }
 
 TexturedBall ball_of(BrdfModel model, ScaledMaps maps) {

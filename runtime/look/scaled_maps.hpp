@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <vector>
 
 #include "look/lit_sphere.hpp"
 #include "remap/converter.hpp"
 #include "remap/pixels.hpp"
+#include "texture/normal_green.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {
@@ -32,8 +34,16 @@ struct ScaledMaps {
 // cannot be read.
 ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side);
 
-// Converts all texels. The result has the encoding of the converter.
-ScaledMaps converted(const Converter& converter, ScaledMaps maps);
+// Converts all texels. The result has the encoding of the converter. `outside`, if not null, receives the
+// fraction of texels outside of the converter's domain.
+ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outside = nullptr);
+
+// Returns the normals (render_textured) of `stored`, the rows of a normal map as files hold it. Files hold 0
+// to 1, or -1 to 1 if a value is negative. `scale` multiplies x and y. `green` is the direction of y.
+Image normals_of(const std::vector<std::vector<float>>& stored, int width, double scale, NormalGreen green);
+// Reads a normal map of a set. Returns an image without values for a map with fewer than three channels,
+// because such a map holds heights. Throws kInput if the file cannot be read.
+Image read_normals(const std::filesystem::path& file, NormalGreen green, int side);
 
 // Returns the ball of maps with roughness, specular and diffuse (absent: black).
 TexturedBall ball_of(BrdfModel model, ScaledMaps maps);

@@ -88,6 +88,39 @@ TEST_CASE("texremap report: looks hold the numbers of the maps") {
   CHECK(data["light"]["width"] == 2 * data["light"]["height"].get<int>());
 }
 
+TEST_CASE("texremap report: normal maps are shown with green up, heights are not") {
+  const Session session;
+  std::filesystem::create_directory(session.path("in"));
+  write_metal(session, "in/a");
+  const auto normals = [&](const std::string& name, bool is_down) {
+    session.make(name, test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [&](int x, int y, int c) {
+      const float value = 0.3f + 0.4f * static_cast<float>(c == 0 ? x : y) / 7.0f;
+      return c == 2 ? 0.95f : c == 1 && is_down ? 1.0f - value : value;
+    });
+    const auto data = reported(session, "in -o out --from blender --to threejs --dry-run --force");
+    std::filesystem::remove(session.path(name));
+    return data;
+  };
+  const auto up = normals("in/a_normal_gl.png", false), down = normals("in/a_normal_dx.png", true);
+  const ImagePixels first = image_of(up, up["materials"][0]["normal"]),
+                    second = image_of(down, down["materials"][0]["normal"]);
+  REQUIRE(first.bytes.size() == 3 * 8 * 8);
+  for (std::size_t i = 0; i < first.bytes.size(); ++i)  // inverted integers differ by their rounding
+    REQUIRE(std::abs(std::to_integer<int>(first.bytes[i]) - std::to_integer<int>(second.bytes[i])) <= 1);
+  CHECK(first.bytes[0] < first.bytes[3 * 7]);          // red rises to the right
+  CHECK(first.bytes[3 * 8 * 7 + 1] > first.bytes[1]);  // green rises downwards, as in the file
+  CHECK(up["materials"][0]["looks"][0]["still"] !=
+        reported(session,
+                 "in -o out --from blender --to threejs "
+                 "--dry-run --force")["materials"][0]["looks"][0]["still"]);
+
+  session.make("in/a_normal_gl.png", test_spec(8, 8, {"Y"}, OIIO::TypeUInt8),
+               [](int x, int, int) { return static_cast<float>(x) / 7.0f; });
+  CHECK_FALSE(
+      reported(session, "in -o out --from blender --to threejs --dry-run --force")["materials"][0].contains(
+          "normal"));
+}
+
 TEST_CASE("texremap report: sixteen materials at most, and what is not shown is said", "[slow]") {
   const Session session;
   for (int i = 10; i < 28; ++i) write_metal(session, "set" + std::to_string(i));

@@ -36,14 +36,16 @@ after(async () => {
 const texremap = (...words) => execFileSync(native, ['convert', ...words], { stdio: ['ignore', 'ignore', 'pipe'] });
 const dataOf = (file) => JSON.parse(/<script type="application\/json" id="data">(.*?)<\/script>/s.exec(readFileSync(file, 'utf8'))[1]);
 
-// Returns the folder of a set whose maps have one value each.
-function uniformSet(name, values) {
+// Returns the folder of a set. `values` are functions of the place, 0 to 1, or one value for all texels.
+function madeSet(name, values) {
   const set = join(folder, name);
   mkdirSync(set, { recursive: true });
   for (const [role, value] of Object.entries(values)) {
-    const channels = value.length;
+    const side = typeof value === 'function' ? 64 : 4;
+    const texels = Array.from({ length: side * side }, (_, i) =>
+      (typeof value === 'function' ? value((i % side) / side, Math.floor(i / side) / side) : value));
     writeFileSync(join(set, `a_${role}.png`),
-      encode({ width: 4, height: 4, channels, depth: 16, data: Uint16Array.from({ length: 16 * channels }, (_, i) => 65535 * value[i % channels]) }));
+      encode({ width: side, height: side, channels: texels[0].length, depth: 16, data: Uint16Array.from(texels.flat(), (part) => 65535 * part) }));
   }
   return set;
 }
@@ -66,8 +68,9 @@ function difference(a, b) {
   return Math.sqrt(sum / count);
 }
 
-// Returns the display values of a look as the viewer shades it.
-async function shaded(page, report, look) {
+// Returns the display values of the converted look as the viewer shades it.
+async function shaded(page, report) {
+  const [{ looks, normal }] = report.materials;
   const base64 = await page.evaluate(async (side, { light, images }, shown) => {
     const canvas = document.body.appendChild(document.createElement('canvas'));
     canvas.style.cssText = `display: block; width: ${side}px; height: ${side}px`;
@@ -75,7 +78,7 @@ async function shaded(page, report, look) {
       new Blob([Uint8Array.from(atob(images[index].split(',')[1]), (letter) => letter.charCodeAt(0))]),
       { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
     const maps = {};
-    for (const map of ['roughness', 'specular', 'diffuse']) maps[map] = await image(shown[map]);
+    for (const map of ['roughness', 'specular', 'diffuse', 'normal']) maps[map] = await image(shown[map]);
     const shader = new globalThis.shading.Shading(canvas, light);
     const look = { ...shown, ...maps };
     shader.show(look, look);
@@ -84,33 +87,48 @@ async function shaded(page, report, look) {
     const url = canvas.toDataURL();
     canvas.remove();
     return url.split(',')[1];
-  }, SIDE, report, look);
+  }, SIDE, report, { ...looks.at(-1), normal });
   const { channels, data } = decode(Buffer.from(base64, 'base64'));
   return (x, y, c) => data[channels * (y * SIDE + x) + c] / 255;
 }
 
+// Returns the difference of the converted ball between viewer and remapc.
+async function differenceToRemapc(page, set, ...words) {
+  const [sheet, html] = [join(set, '../sheet.png'), join(set, '../report.html')];
+  const ends = words.slice(0, 4);
+  execFileSync(remapc, ['preview', set, ...ends, '--no-labels', '--resolution', String(SIDE), '--directions', '6000', '--force', '-o', sheet], { stdio: 'ignore' });
+  texremap(set, ...words, '-o', join(folder, 'out'), '--dry-run', '--force', '--report', html);
+  const report = dataOf(html);
+  const columns = report.materials[0].looks.length;
+  return difference(ballOfSheet(sheet, columns - 1, columns), await shaded(page, report));
+}
+
 describe('the viewer', { skip }, () => {
+  const opened = async (work) => {
+    const page = await browser.newPage();
+    await page.goto('about:blank');
+    await page.addScriptTag({ content: `${shading}; globalThis.shading = shading;` });
+    await work(page);
+    await page.close();
+  };
   for (const model of ['ggx', 'ward', 'ward-duer', 'ward-balanced', 'phong', 'beckmann', 'as'])
-    test(`${model} is shaded as remapc shades it`, { timeout: 600000 }, async (run) => {
-      const page = await browser.newPage();
-      await page.goto('about:blank');
-      await page.addScriptTag({ content: `${shading}; globalThis.shading = shading;` });
+    test(`${model} is shaded as remapc shades it`, { timeout: 600000 }, (run) => opened(async (page) => {
       for (const alpha of [0.1, 0.25, 0.5, 0.8]) {
-        const set = uniformSet(`${model}-${alpha}`, { roughness: [alpha], specular: [0.7, 0.5, 0.3], diffuse: [0.1, 0.2, 0.3] });
-        const [sheet, html] = [join(set, '../sheet.png'), join(set, '../report.html')];
-        const ends = ['--from', 'mitsuba/ggx', '--to', `mitsuba/${model}`];
-        const target = model === 'ggx' ? ['--from', 'mitsuba/ward', '--to', 'mitsuba/ggx'] : ends;
-        execFileSync(remapc, ['preview', set, ...target, '--no-labels', '--resolution', String(SIDE), '--directions', '6000', '--force', '-o', sheet], { stdio: 'ignore' });
-        texremap(set, ...target, '-o', join(folder, 'out'), '--dry-run', '--force', '--report', html, ...(model === 'phong' ? ['--exponent-of-white', '10000'] : []));
-        const report = dataOf(html);
-        const look = report.materials[0].looks.at(-1);
-        const columns = report.materials[0].looks.length;
-        const error = difference(ballOfSheet(sheet, columns - 1, columns), await shaded(page, report, look));
+        const set = madeSet(`${model}-${alpha}`, { roughness: [alpha], specular: [0.7, 0.5, 0.3], diffuse: [0.1, 0.2, 0.3] });
+        const ends = model === 'ggx' ? ['--from', 'mitsuba/ward', '--to', 'mitsuba/ggx'] : ['--from', 'mitsuba/ggx', '--to', `mitsuba/${model}`];
+        const error = await differenceToRemapc(page, set, ...ends, ...(model === 'phong' ? ['--exponent-of-white', '10000'] : []));
         run.diagnostic(`alpha ${alpha}: ${(100 * error).toFixed(2)} % of the display's range`);
         assert.ok(error < 0.005, `${model}, alpha ${alpha}: ${error}`);
       }
-      await page.close();
-    });
+    }));
+
+  test('normal maps bend the light as in remapc', { timeout: 600000 }, (run) => opened(async (page) => {
+    const wave = (place) => 0.5 + 0.2 * Math.sin(12 * place);
+    const set = madeSet('bent', { roughness: [0.5], specular: [0.7, 0.5, 0.3], diffuse: [0.1, 0.2, 0.3], normal_gl: (x, y) => [wave(x), wave(y), 0.95] });
+    const error = await differenceToRemapc(page, set, '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx');
+    run.diagnostic(`${(100 * error).toFixed(2)} % of the display's range`);
+    assert.ok(error < 0.005, `${error}`);
+  }));
 });
 
 describe('a report', { skip }, () => {

@@ -130,6 +130,8 @@ void main() {
       vec3 tangent = normalize(vec3(normal.z, 0.0, -normal.x) + vec3(0.0001, 0.0, 0.0));
       vec3 bent = 2.0 * texture(normal_map, uv).rgb - 1.0;
       normal = normalize(bent.x * tangent + bent.y * cross(normal, tangent) + max(bent.z, 0.05) * normal);
+      // A normal that the camera would see from behind is turned until it faces the camera (look/lit_sphere.cpp).
+      normal = normalize(normal + max(0.05 - dot(normal, view), 0.0) * view);
     }
     uvec2 random = hashed(uvec2(gl_FragCoord.xy));
     vec2 shift = vec2(random >> 8u) / 16777216.0;

@@ -201,6 +201,9 @@ export class Viewer {
       made('thead', {}, row('th', 'picture', 'shown by', 'error', 'SSIM')),
       made('tbody', {}, ...this.#material.looks.map(({ title, model, rms, ssim }) =>
         row('td', title, model, rms === undefined ? '' : percent(rms), ssim === undefined ? '' : ssim.toFixed(3)))));
+    if (this.#material.outside > 0)
+      this.#parts.figures.append(made('tfoot', {}, made('tr', {}, made('td', { colSpan: 4 },
+        `${percent(this.#material.outside)} of the texels are outside the range that the conversion was measured for`))));
   }
 
   async #showLooks() {

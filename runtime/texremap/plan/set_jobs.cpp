@@ -380,6 +380,12 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
     const std::optional<fs::path> file = file_of(map, tile);
     if (!file || (map.tiles.empty() && !is_first)) continue;
     const fs::path source = root_ / *file;
+    if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() &&
+        work.normals.empty()) {
+      work.normals = source;
+      work.green = stated_green(source.filename().string())
+                       .value_or(normals_of(options_.from).value_or(NormalGreen::kUp));
+    }
     if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
       continue;
     if (!comes_along(map)) {

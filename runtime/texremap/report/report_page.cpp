@@ -212,6 +212,14 @@ Environment studio_light() {
   return exposed(std::move(studio), 1.0 / luminance);
 }
 
+// Adds normals as pictures store them: x, y and z from 0 to 1.
+std::string add_normals(const Image& normals, PageImages& images) {
+  std::vector<std::vector<float>> stored(3);
+  for (std::size_t i = 0; i < normals.values.size(); ++i)
+    stored[i % 3].push_back(0.5f + 0.5f * normals.values[i]);
+  return add_image(pixels_of(stored, normals.width, Transfer::kLinear), images);
+}
+
 Json material_json(const MaterialLooks& looks, const JobLooks& models, const LitLooks& lit,
                    PageImages& images) {
   Json json = {{"name", looks.name}};
@@ -224,6 +232,8 @@ Json material_json(const MaterialLooks& looks, const JobLooks& models, const Lit
   if (looks.copied)
     add(models.copied_title(), models.target_model(), *looks.copied, lit.pictures[1], &*lit.copied);
   add("converted", models.target_model(), looks.converted, lit.pictures.back(), &lit.converted);
+  json["outside"] = looks.outside;
+  if (!looks.normals.values.empty()) json["normal"] = add_normals(looks.normals, images);
   json["maps"] = {{"before", maps_json(looks.before, images)}, {"after", maps_json(looks.after, images)}};
   return json;
 }
@@ -314,8 +324,8 @@ class ReportPage {
       sampling.resolution = kStillSide;
       sampling.samples = kStillDirections;
       sampling.jobs = 1;
-      const auto render = [&](std::span<const TexturedBall> balls) {
-        return render_textured(pyramid_, balls, sampling);
+      const auto render = [&](std::span<const TexturedBall> balls, const Image& normals) {
+        return render_textured(pyramid_, balls, normals, sampling);
       };
       for (const MaterialLooks& looks : looks_.of(job, side_, kMostMaterials))
         shown.materials.push_back(

@@ -2,6 +2,9 @@
 // are written, and the figures follow from the conversion.
 #include "report/set_preview.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <catch2/catch.hpp>
 
 #include "look/brdf_models.hpp"
@@ -62,7 +65,7 @@ TEST_CASE("set preview: a ball of uniform maps equals the sphere of the same num
   const std::array<SphereMaterial, 1> material = {{{model, 0.2, 0.6, 0.3}}};
   const std::vector<float> expected = render_spheres(pyramid, material, coarse()).radiance(0, 0);
   const TexturedBall ball{model, 3, 2, std::vector<BallTexel>(6, {0.2, {0.6, 0.6, 0.6}, {0.3, 0.3, 0.3}})};
-  const std::vector<float> found = render_textured(pyramid, std::span(&ball, 1), coarse()).front();
+  const std::vector<float> found = render_textured(pyramid, std::span(&ball, 1), {}, coarse()).front();
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) REQUIRE(found[i] == Approx(expected[i]).epsilon(1e-4));
 }
@@ -73,7 +76,7 @@ TEST_CASE("set preview: the left of a map is at the left of the ball, its first 
   TexturedBall ball{builtin_brdf("mitsuba/ggx"), 2, 2, std::vector<BallTexel>(4, {0.5, {}, {}})};
   ball.texels[0].diffuse = {1.0, 0.0, 0.0};
   ball.texels[3].diffuse = {0.0, 1.0, 0.0};
-  const std::vector<float> picture = render_textured(pyramid, std::span(&ball, 1), coarse()).front();
+  const std::vector<float> picture = render_textured(pyramid, std::span(&ball, 1), {}, coarse()).front();
   const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, kBall);
   const auto at = [&](int x, int y, std::size_t channel) {
     const auto place = std::ranges::find(pixels, static_cast<std::uint32_t>(y * kBall + x));
@@ -82,6 +85,37 @@ TEST_CASE("set preview: the left of a map is at the left of the ball, its first 
   };
   CHECK(at(12, 14, 0) > 2.0f * at(12, 14, 1));
   CHECK(at(35, 33, 1) > 2.0f * at(35, 33, 0));
+}
+
+TEST_CASE(
+    "set preview: normals out of the surface change nothing, normals to the camera make the ball flat") {
+  const Environment light = builtin_environments(16)[1];  // overcast: darker towards the ground
+  const RadiancePyramid pyramid(std::span(&light, 1), 64);
+  const TexturedBall ball{builtin_brdf("mitsuba/ggx"), 1, 1, {{0.5, {}, {0.8, 0.8, 0.8}}}};
+  const auto rendered = [&](const Image& normals) {
+    return render_textured(pyramid, std::span(&ball, 1), normals, coarse()).front();
+  };
+  CHECK(rendered({1, 1, 3, {0.0f, 0.0f, 1.0f}}) == rendered({}));
+
+  // The camera's direction (0, 0, 1) in the frame of each texel: along the rows to the right, up, and out.
+  constexpr int kSide = 96;
+  Image facing{kSide, kSide, 3, {}};
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const double polar = std::numbers::pi * (row + 0.5) / kSide,
+                   azimuth = std::numbers::pi * ((column + 0.5) / kSide - 0.5);
+      for (const double value :
+           {-std::sin(azimuth), -std::cos(polar) * std::cos(azimuth), std::sin(polar) * std::cos(azimuth)})
+        facing.values.push_back(static_cast<float>(value));
+    }
+  const std::vector<float> flat = rendered(facing), round = rendered({});
+  const std::vector<std::uint32_t> pixels = shape_pixels(Shape::kSphere, kBall);
+  const auto at = [&](const std::vector<float>& picture, int y) {
+    const auto place = std::ranges::find(pixels, static_cast<std::uint32_t>(y * kBall + kBall / 2));
+    return picture[3 * static_cast<std::size_t>(place - pixels.begin())];
+  };
+  CHECK(at(round, 8) > 1.5f * at(round, kBall - 8));
+  for (int y = 8; y <= kBall - 8; ++y) CHECK(at(flat, y) == Approx(at(flat, kBall / 2)).epsilon(0.05));
 }
 
 TEST_CASE("set preview: a set that does not change looks the same, and Blender's set in three.js nearly so",

@@ -205,7 +205,8 @@ remap::Image lit_by_environment(const json& request) {
   sampling.samples = light.at("samples");
   const remap::RadiancePyramid pyramid(std::span(&environment, 1), remap::kPreviewLightRows);
   const remap::TexturedBall ball = ball_of_request(request.at("parameters"));
-  const std::vector<float> radiance = remap::render_textured(pyramid, std::span(&ball, 1), sampling).front();
+  const std::vector<float> radiance =
+      remap::render_textured(pyramid, std::span(&ball, 1), {}, sampling).front();
   const std::vector<std::uint32_t> pixels = remap::shape_pixels(remap::Shape::kSphere, sampling.resolution);
   remap::Image image{sampling.resolution, sampling.resolution, 3, {}};
   image.values.resize(static_cast<std::size_t>(3 * image.width * image.height));
