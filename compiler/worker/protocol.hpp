@@ -29,8 +29,8 @@ struct PictureRequest {
   int resolution = 0;
   Shape shape = Shape::kSphere;
   int channels = 1;  // 1 if every parameter is grey, otherwise 3
-  // Maps by the names of their parameters. An environment has an empty name. They must outlive the request,
-  // and are not part of `text`, so that pictures with maps are not kept.
+  // Maps by the names of their parameters. An environment has an empty name. They must outlive the request.
+  // `text` does not have them, so pictures with maps cannot be cached.
   std::map<std::string, const Image*> maps = {};
 };
 PictureRequest picture_request(const Material& material, const Scene& scene);
