@@ -92,8 +92,10 @@ TEST_CASE(
   const Environment light = builtin_environments(16)[1];  // overcast: darker towards the ground
   const RadiancePyramid pyramid(std::span(&light, 1), 64);
   const TexturedBall ball{builtin_brdf("mitsuba/ggx"), 1, 1, {{0.5, {}, {0.8, 0.8, 0.8}}}};
+  SphereSampling sampling = coarse();
+  sampling.samples = 2048;
   const auto rendered = [&](const Image& normals) {
-    return render_textured(pyramid, std::span(&ball, 1), normals, coarse()).front();
+    return render_textured(pyramid, std::span(&ball, 1), normals, sampling).front();
   };
   CHECK(rendered({1, 1, 3, {0.0f, 0.0f, 1.0f}}) == rendered({}));
 
