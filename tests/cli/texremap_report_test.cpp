@@ -121,6 +121,29 @@ TEST_CASE("texremap report: normal maps are shown with green up, heights are not
           "normal"));
 }
 
+TEST_CASE("texremap report: sets of a BRDF model are shown with their diffuse map") {
+  const Session session;
+  std::filesystem::create_directory(session.path("in"));
+  session.make("in/a_roughness.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 0.4f; });
+  session.make("in/a_specular.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 0.2f; });
+  session.make("in/a_diffuse.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8),
+               [](int, int, int c) { return 0.2f + 0.2f * static_cast<float>(c); });
+  for (const std::string& words :
+       {std::string("in"), std::string("--roughness in/a_roughness.png --specular "
+                                       "in/a_specular.png --diffuse in/a_diffuse.png")}) {
+    const auto data =
+        reported(session, words + " -o out --from mitsuba/ward --to mitsuba/as --dry-run --force");
+    for (const auto& look : data["materials"][0]["looks"]) {
+      const ImagePixels diffuse = image_of(data, look["diffuse"]);
+      for (std::size_t c = 0; c < 3; ++c)
+        CHECK(std::abs(std::to_integer<int>(diffuse.bytes[c]) -
+                       std::lround(255.0 * (0.2 + 0.2 * static_cast<double>(c)))) <= 1);
+    }
+  }
+}
+
 TEST_CASE("texremap report: sixteen materials at most, and what is not shown is said", "[slow]") {
   const Session session;
   for (int i = 10; i < 28; ++i) write_metal(session, "set" + std::to_string(i));

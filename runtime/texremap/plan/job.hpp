@@ -28,8 +28,10 @@ struct SetWork {
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   std::vector<std::string> notes;                  // which map was chosen out of several
   std::optional<TranslationEffect> effect = {};    // what a translation between surfaces changes in this set
-  std::filesystem::path normals = {};              // the normal map, which reports show; or empty
-  NormalGreen green = NormalGreen::kUp;            // direction of its green
+  // These maps are not converted, but pictures show them. A file without a name is missing.
+  MapName diffuse = {};
+  std::filesystem::path normals = {};
+  NormalGreen green = NormalGreen::kUp;  // direction of green in the normals
 };
 
 // An AssetWork is an asset and its result. The files that the asset names are read below `input_root`, and

@@ -309,6 +309,9 @@ void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::str
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, work)) return;
   work.effect = effect_of(workflow_, work.request);
+  if (const auto found = uses_of(set, Parameter::kDiffuse); !workflow_.is_material() && !found.empty())
+    if (const auto file = file_of(set.maps[found.front().map], tile))
+      work.diffuse = {root_ / *file, channel_names(found.front().channels)};
   if (!choice_.layout.keeps_names) carry(set, tile, work.request);
   place_others(set, tile, work);
   Job job{(root_ / set.folder / set.name).string(), number, owner(set)};
@@ -533,6 +536,7 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
                                 true});
     }
     if (present.size() < tiled.size()) continue;
+    if (!set.copies.empty()) set.diffuse.file = set.copies.front().source;
     Job& job = list.jobs.emplace_back(Job{tiled.front().file.string(), std::to_string(number)});
     job.work = std::move(set);
   }
@@ -563,6 +567,7 @@ JobList set_jobs(const ConvertOptions& options, const ConversionChoice& workflow
   if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
   SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};
   set.effect = effect_of(workflow, request);
+  if (!set.copies.empty()) set.diffuse.file = set.copies.front().source;
   if (const std::vector<TiledFile> tiled = tiled_files(set); !tiled.empty()) return tile_jobs(set, tiled);
   JobList list;
   list.jobs.push_back({""});

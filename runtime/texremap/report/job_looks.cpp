@@ -92,13 +92,20 @@ MaterialLooks JobLooks::of_set(const Job& job, int side) const {
   const BuiltConversion& chosen = plan_.sets()->chosen;
   const ConversionChoice& workflow = chosen.choice;
   const auto& work = std::get<SetWork>(job.work);
-  TextureSet set = open_texture_set(work.request);
+  TextureSetRequest request = work.request;
+  if (!work.diffuse.file.empty()) {  // of a BRDF model, whose converter does not read it
+    request.parameters[Parameter::kDiffuse] = {work.diffuse, {}, {}};
+    request.resample = true;
+  }
+  TextureSet set = open_texture_set(request);
   MaterialLooks looks;
   looks.name = job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());
   if (!job.tile.empty()) looks.name += " " + job.tile;
   if (!work.normals.empty()) looks.normals = read_normals(work.normals, work.green, side);
   looks.before = scaled_maps(set, chosen.info().source.roughness, side);
   looks.after = converted(chosen.converter(), looks.before, &looks.outside);
+  if (!work.diffuse.file.empty())
+    looks.after.rows[Parameter::kDiffuse] = looks.before.rows.at(Parameter::kDiffuse);
   looks.source = source_.ball(workflow.source, looks.before);
   looks.converted = target_.ball(workflow.target, looks.after);
   if (has_same_parameters(workflow)) looks.copied = target_.ball(workflow.target, looks.before);
