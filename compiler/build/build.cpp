@@ -68,14 +68,13 @@ class Builder {
         if (lost == inputs.end())
           (waits ? later : ready).push_back(item);
         else
-          failures_.emplace(item->id, FailedItem{item->id, "needs " + *lost, failures_.at(*lost).kind});
+          failures_.emplace(item->id, Error(failures_.at(*lost).kind(), "needs " + *lost));
       }
       run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
       waiting = later;
     }
     std::ranges::sort(built_, {}, &BuiltItem::id);
-    BuildResult result{std::move(built_), {}, std::move(pruned_)};
-    for (const auto& [id, failed] : failures_) result.failed.push_back(failed);
+    BuildResult result{std::move(built_), std::move(failures_), std::move(pruned_)};
     if (!result.failed.empty()) return result;
     const FitFolder folder = load_fit_folder(folders_.fits);
     write_converters(folder);
@@ -116,7 +115,7 @@ class Builder {
     require_time();
     BuiltItem built;
     LockedItem record;
-    Freshness fresh;
+    Freshness fresh = Freshness::kNothing;
     {
       const std::lock_guard lock(mutex_);
       fresh = freshness(item, folders_, lock_);
@@ -125,22 +124,23 @@ class Builder {
     }
     try {
       const Stopwatch stopwatch;
-      if (!fresh.table && keeps_table(item, &record, &built.kept_table)) fresh.table = true;
+      if (fresh == Freshness::kNothing && keeps_table(item, &record, &built.kept_table))
+        fresh = Freshness::kTable;
       make(item, fresh, &record, &built);
       built.seconds = stopwatch.seconds();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
       const std::lock_guard lock(mutex_);
-      failures_.emplace(item.id, FailedItem{item.id, error.what(), error.kind()});
+      failures_.emplace(item.id, error);
       return;
     }
     const std::lock_guard lock(mutex_);
     lock_.items[item.id] = record;
-    if (!fresh.header) {
+    if (fresh != Freshness::kAll) {
       save_lock(folders_.fits, lock_);
       built.id = item.id;
-      built.table = !fresh.table && has_table(item);
-      built.fit = !fresh.fit;
+      built.table = fresh == Freshness::kNothing && has_table(item);
+      built.fit = fresh < Freshness::kFit;
       built.header = true;
       built_.push_back(std::move(built));
     }
@@ -166,16 +166,17 @@ class Builder {
     }
   }
 
-  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record, BuiltItem* built) {
+  void make(const ManifestItem& item, Freshness fresh, LockedItem* record, BuiltItem* built) {
     const fs::path table = folders_.table(item.id), fit_path = folders_.fit(item.id);
-    if (has_table(item) && !fresh.table) {
+    if (has_table(item) && fresh == Freshness::kNothing) {
       const std::string text = table_text(table_of(item, built));
       write_file(table, text);
       record->table = sha256(text);
     }
-    if (fresh.header) return;
-    AnyFit fit = fresh.fit ? load_any_fit(fit_path) : fit_of(item, table, built);
-    if (!fresh.fit) {
+    if (fresh == Freshness::kAll) return;
+    const bool is_fitted = fresh == Freshness::kFit;
+    AnyFit fit = is_fitted ? load_any_fit(fit_path) : fit_of(item, table, built);
+    if (!is_fitted) {
       if (auto* of_width = std::get_if<Fit>(&fit)) {
         const Stopwatch stopwatch;
         add_converter(of_width);
@@ -203,9 +204,10 @@ class Builder {
   }
 
   Table table_of(const ManifestItem& item, BuiltItem* built) const {
-    if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
-      const std::string bytes = read_file(folders_.fit(inverse->of));
-      return inverse_table(fit_from_json(bytes, inverse->of), bytes);
+    if (const auto* derived = std::get_if<DerivedItem>(&item.kind)) {
+      const std::string& of = derived->inputs.front();
+      const std::string bytes = read_file(folders_.fit(of));
+      return inverse_table(fit_from_json(bytes, of), bytes);
     }
     const auto& swept = std::get<SweptItem>(item.kind);
     SweepOptions options;
@@ -226,7 +228,9 @@ class Builder {
 
   AnyFit fit_of(const ManifestItem& item, const fs::path& table, BuiltItem* built) const {
     if (const auto* finished = std::get_if<AnyFit>(&item.kind)) return *finished;
-    if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
+    if (const auto* derived = std::get_if<DerivedItem>(&item.kind);
+        derived != nullptr && !derived->is_inverse())
+      return chain_of(*derived, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, built);
     const Stopwatch stopwatch;
     const std::string bytes = read_file(table);
@@ -235,8 +239,7 @@ class Builder {
     options.seed = item.seed;
     options.jobs = 1;
     options.accept_light = item.accept_light;
-    Fit fit =
-        fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); }).fit;
+    Fit fit = fit_table(parse_table(bytes, table.string()), bytes, options, [&](double) { require_time(); });
     built->fit_seconds = stopwatch.seconds();
     return fit;
   }
@@ -288,9 +291,9 @@ class Builder {
                   "build: interrupted (finished items are kept; run it again to continue)");
   }
 
-  Fit chain_of(const ChainItem& chain, const std::string& id) const {
+  Fit chain_of(const DerivedItem& chain, const std::string& id) const {
     std::vector<Fit> steps;
-    for (const std::string& step : chain.steps) steps.push_back(load_fit(folders_.fit(step)));
+    for (const std::string& step : chain.inputs) steps.push_back(load_fit(folders_.fit(step)));
     return composed_fit(steps, id);
   }
 
@@ -317,7 +320,7 @@ class Builder {
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::vector<BuiltItem> built_;
-  std::map<std::string, FailedItem> failures_;  // keyed by id
+  std::map<std::string, Error> failures_;  // keyed by id
   std::vector<std::string> pruned_;
 };
 
@@ -344,8 +347,9 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   const Lock lock = load_lock(folders.fits);
   std::vector<std::string> reasons;
   for (const ManifestItem& item : manifest) {
-    const Freshness fresh = freshness(item, folders, lock);
-    if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
+    std::string reason;
+    if (freshness(item, folders, lock, &reason) != Freshness::kAll)
+      reasons.push_back(item.id + ": " + reason);
   }
   for (const std::string& id : vanished_items(manifest, folders, lock))
     reasons.push_back(id + ": no longer in the manifest (`remapc build --prune` removes its files)");

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,15 +39,10 @@ struct BuiltItem {
   std::string kept_table;         // why the table of an earlier build was used, although it is not up to date
 };
 
-struct FailedItem {
-  std::string id, why;
-  ErrorKind kind = ErrorKind::kInput;
-};
-
 struct BuildResult {
-  std::vector<BuiltItem> built;     // sorted by id
-  std::vector<FailedItem> failed;   // sorted by id
-  std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
+  std::vector<BuiltItem> built;         // sorted by id
+  std::map<std::string, Error> failed;  // by id
+  std::vector<std::string> pruned;      // ids of items no longer in the manifest whose files were deleted
 };
 
 // Makes every item of `manifest` whose recipe, inputs or files changed since the last build. Then writes the

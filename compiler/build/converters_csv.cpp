@@ -78,17 +78,14 @@ std::string line(const Row& row) {
 }
 
 void add_pictures(const Fit& fit, Row* row) {
-  if (!fit.image_similarity) return;
-  (*row)["image_error"] = figure(fit.image_similarity->image_error.rms);
-  (*row)["image_error_99"] = figure(fit.image_similarity->image_error.p99);
+  if (!fit.image_error) return;
+  (*row)["image_error"] = figure(fit.image_error->rms);
+  (*row)["image_error_99"] = figure(fit.image_error->p99);
   if (!is_measured(fit)) return;
-  const auto& spheres = fit.image_similarity->ssim;
-  const auto least =
-      std::min_element(spheres.begin(), spheres.end(),
-                       [](const SphereSimilarity& a, const SphereSimilarity& b) { return a.ssim < b.ssim; });
+  const auto least = std::ranges::min_element(fit.ssim, {}, &std::map<double, double>::value_type::second);
   (*row)["ssim"] = figure(*mean_ssim(fit));
-  (*row)["ssim_least"] = figure(least->ssim);
-  (*row)["ssim_least_at_alpha"] = figure(least->alpha);
+  (*row)["ssim_least"] = figure(least->second);
+  (*row)["ssim_least_at_alpha"] = figure(least->first);
 }
 
 // Adds how well the opposite converter restores a texel. This is the larger of the relative changes of alpha

@@ -14,7 +14,8 @@ namespace remap {
 namespace fs = std::filesystem;
 
 bool has_table(const ManifestItem& item) {
-  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind);
+  const auto* derived = std::get_if<DerivedItem>(&item.kind);
+  return std::holds_alternative<SweptItem>(item.kind) || (derived != nullptr && derived->is_inverse());
 }
 
 namespace {
@@ -39,24 +40,29 @@ std::string recipe_hash(const ManifestItem& item, const Lock& lock) {
   return sha256(text);
 }
 
-Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock) {
+Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock,
+                    std::string* reason) {
+  const auto stale = [&](Freshness fresh, const std::string& why) {
+    if (reason != nullptr) *reason = why;
+    return fresh;
+  };
   const auto found = lock.items.find(item.id);
-  if (found == lock.items.end()) return {false, false, false, "not built yet"};
+  if (found == lock.items.end()) return stale(Freshness::kNothing, "not built yet");
   const LockedItem& known = found->second;
   const fs::path table = folders.table(item.id), fit = folders.fit(item.id), header = folders.header(item.id);
   if (known.recipe != recipe_hash(item, lock))
-    return {false, false, false, "its recipe or its inputs have changed"};
+    return stale(Freshness::kNothing, "its recipe or its inputs have changed");
   const auto same = [](const fs::path& path, const std::string& hash) {
     return !hash.empty() && file_sha256(path) == hash;
   };
-  const auto reason = [](const fs::path& path) {
+  const auto change = [](const fs::path& path) {
     return path.string() + (fs::exists(path) ? " was changed after the last build" : " does not exist");
   };
-  if (has_table(item) && !same(table, known.table)) return {false, false, false, reason(table)};
-  if (!same(fit, known.fit)) return {true, false, false, reason(fit)};
-  if (!has_current_format(fit)) return {true, false, false, fit.string() + " has an older format"};
-  if (!same(header, known.header)) return {true, true, false, reason(header)};
-  return {true, true, true, ""};
+  if (has_table(item) && !same(table, known.table)) return stale(Freshness::kNothing, change(table));
+  if (!same(fit, known.fit)) return stale(Freshness::kTable, change(fit));
+  if (!has_current_format(fit)) return stale(Freshness::kTable, fit.string() + " has an older format");
+  if (!same(header, known.header)) return stale(Freshness::kFit, change(header));
+  return Freshness::kAll;
 }
 
 std::string report_hash(const BuildFolders& folders) {

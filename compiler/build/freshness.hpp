@@ -26,12 +26,13 @@ bool has_table(const ManifestItem& item);
 // Returns a hash of what an item is made from. `lock` has the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 
-// A Freshness lists the files of an item that the lock records and that still match their inputs.
-struct Freshness {
-  bool table = false, fit = false, header = false;
-  std::string reason;  // why the first stale file is not fresh
-};
-Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock);
+// A Freshness states which files of an item the lock records and still match their inputs. A file is only
+// fresh if those before it are.
+enum class Freshness { kNothing, kTable, kFit, kAll };
+
+// `reason` receives why the first stale file is not fresh.
+Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock,
+                    std::string* reason = nullptr);
 
 // Returns a hash of the fits of a folder, from which its report is made.
 std::string report_hash(const BuildFolders& folders);

@@ -180,11 +180,11 @@ Manifest manifest_from_json(std::string_view text, const std::string& context) {
   each("sweeps", [&](const Field& entry) { read_sweeps(entry, &items); });
   each("inverses", [&](const Field& entry) {
     const std::string of = read_id(entry["of"], items);
-    items.push_back({entry["id"].text(), InverseItem{of}, entry.json().dump(),
+    items.push_back({entry["id"].text(), DerivedItem{{of}}, entry.json().dump(),
                      static_cast<std::uint64_t>(entry["seed"].count())});
   });
   each("chains", [&](const Field& entry) {
-    ChainItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
+    DerivedItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
     items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
   });
   // Manifests of earlier versions do not have these sections.
@@ -203,9 +203,8 @@ Manifest load_manifest(const std::filesystem::path& fit_folder) {
 }
 
 std::vector<std::string> inputs_of(const ManifestItem& item) {
-  if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) return {inverse->of};
-  if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain->steps;
-  return {};
+  const auto* derived = std::get_if<DerivedItem>(&item.kind);
+  return derived == nullptr ? std::vector<std::string>{} : derived->inputs;
 }
 
 }  // namespace remap

@@ -27,11 +27,9 @@ struct SweptItem {  // a pair of models, built-in or of real renderers
   std::size_t specular_samples = 30;
   std::map<std::string, Range> speculars;  // canonical, keyed by source model; if missing: whole range
 };
-struct InverseItem {  // the inverse of another item's fit
-  std::string of;
-};
-struct ChainItem {  // other items, one after another
-  std::vector<std::string> steps;
+struct DerivedItem {                // made from the fits of other items
+  std::vector<std::string> inputs;  // one: the inverse of it; several: a chain of them, one after another
+  bool is_inverse() const { return inputs.size() == 1; }
 };
 
 // A NetworkItem is a network from the specular to the metallic workflow. It is trained on random metallic
@@ -50,7 +48,7 @@ struct NetworkItem {
 struct ManifestItem {
   std::string id;
   // An AnyFit is finished: a formula from a paper, or a conversion of whole materials.
-  std::variant<SweptItem, InverseItem, AnyFit, ChainItem, NetworkItem> kind;
+  std::variant<SweptItem, DerivedItem, AnyFit, NetworkItem> kind;
   std::string recipe;      // text that defines the item; items with equal recipes are equal
   std::uint64_t seed = 1;  // seed of its fit and of random materials
   // True if a difference between the light of the two models is accepted (table/light.hpp). The list

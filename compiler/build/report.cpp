@@ -48,29 +48,17 @@ std::string percent_text(double value) {
 
 std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
 
-// A ModelPair holds the compared converters between two models, in both directions.
-struct ModelPair {
-  std::string first, second;  // names of the models, in alphabetical order
-  std::vector<const Fit*> there, back;
-};
-
-bool is_small(const ModelPair& pair) {
-  const auto small = [](const Fit* fit) { return image_error(*fit) < kSmallError; };
-  return std::all_of(pair.there.begin(), pair.there.end(), small) &&
-         std::all_of(pair.back.begin(), pair.back.end(), small);
-}
-
-// Returns the pairs, sorted by the image error of the better direction. The best pair comes first.
-std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
-  std::vector<ModelPair> pairs;
+// Returns the compared converters between each pair of models, in both directions. Pairs are sorted by the
+// image error of the better direction. The best pair comes first.
+std::vector<std::vector<const Fit*>> compared_pairs(const std::vector<Fit>& fits) {
+  std::vector<std::vector<const Fit*>> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Fit* fit : by_trust(fits)) {
-    if (!fit->image_similarity) continue;
-    const std::pair<std::string, std::string> names = std::minmax(fit->source.model, fit->target.model);
-    const auto [place, is_new] = known.try_emplace(names, pairs.size());
-    if (is_new) pairs.push_back({names.first, names.second, {}, {}});
-    ModelPair& pair = pairs[place->second];
-    (fit->source.model == pair.first ? pair.there : pair.back).push_back(fit);
+    if (!fit->image_error) continue;
+    const auto [place, is_new] =
+        known.try_emplace(std::minmax(fit->source.model, fit->target.model), pairs.size());
+    if (is_new) pairs.emplace_back();
+    pairs[place->second].push_back(fit);
   }
   return pairs;
 }
@@ -90,15 +78,17 @@ std::string converters_text(const std::vector<const Fit*>& fits, const ReachReco
 
 std::string pair_lines(const std::vector<Fit>& fits, const ReachRecords& reach) {
   std::string small, others;
-  for (const ModelPair& pair : compared_pairs(fits)) {
-    const std::string names = pair.first + ", " + pair.second;
-    if (is_small(pair))
-      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(pair.there, reach, false) +
-               (pair.there.empty() || pair.back.empty() ? "" : ", ") +
-               converters_text(pair.back, reach, false) + ")";
+  for (const std::vector<const Fit*>& pair : compared_pairs(fits)) {
+    const auto& [first, second] = std::minmax(pair.front()->source.model, pair.front()->target.model);
+    std::vector<const Fit*> there, back;
+    for (const Fit* fit : pair) (fit->source.model == first ? there : back).push_back(fit);
+    const std::string names = first + ", " + second;
+    if (std::ranges::all_of(pair, [](const Fit* fit) { return image_error(*fit) < kSmallError; }))
+      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(there, reach, false) +
+               (there.empty() || back.empty() ? "" : ", ") + converters_text(back, reach, false) + ")";
     else
-      others += "| " + names + " | " + converters_text(pair.there, reach, true) + " | " +
-                converters_text(pair.back, reach, true) + " |\n";
+      others += "| " + names + " | " + converters_text(there, reach, true) + " | " +
+                converters_text(back, reach, true) + " |\n";
   }
   std::string text;
   if (!small.empty())
@@ -114,7 +104,7 @@ std::string pair_lines(const std::vector<Fit>& fits, const ReachRecords& reach) 
 std::string uncompared_lines(const std::vector<Fit>& fits) {
   std::string text;
   for (const Fit& fit : fits)
-    if (!fit.image_similarity)
+    if (!fit.image_error)
       text += (text.empty() ? "" : "; ") + link(fit.source.model + " to " + fit.target.model, fit.id);
   return text.empty() ? "" : std::string("\n## Never compared") + kMark + "\n\n" + text + ".\n";
 }

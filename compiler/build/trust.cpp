@@ -11,12 +11,11 @@ namespace remap {
 bool is_measured(const Fit& fit) { return mean_ssim(fit).has_value(); }
 
 double image_error(const Fit& fit) {
-  return fit.image_similarity ? fit.image_similarity->image_error.rms
-                              : std::numeric_limits<double>::infinity();
+  return fit.image_error ? fit.image_error->rms : std::numeric_limits<double>::infinity();
 }
 
 std::string trust_warning(const Fit& fit) {
-  if (!fit.image_similarity) return "pictures never compared";
+  if (!fit.image_error) return "pictures never compared";
   return image_error(fit) > kLargestTrustedError ? "image error above " + fixed(kLargestTrustedError, 2) : "";
 }
 

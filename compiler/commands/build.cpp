@@ -58,8 +58,8 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
   if (command.json) {
     Json json = {{"items", manifest.size()}, {"seconds", seconds},     {"pruned", result.pruned},
                  {"vanished", vanished},     {"failed", Json::list()}, {"built", Json::list()}};
-    for (const FailedItem& item : result.failed)
-      json["failed"].push_back({{"id", item.id}, {"why", item.why}});
+    for (const auto& [id, error] : result.failed)
+      json["failed"].push_back({{"id", id}, {"why", std::string(error.what())}});
     for (const BuiltItem& item : result.built)
       json["built"].push_back({{"id", item.id},
                                {"table", item.table},
@@ -95,11 +95,10 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
 void require_success(const BuildResult& result, std::size_t items) {
   if (result.failed.empty()) return;
   std::string text;
-  for (const FailedItem& item : result.failed)
-    text += (text.empty() ? "" : "; ") + (item.id + ": " + item.why);
+  for (const auto& [id, error] : result.failed) text += (text.empty() ? "" : "; ") + id + ": " + error.what();
   if (result.failed.size() > 1)
     text = std::to_string(result.failed.size()) + " of " + std::to_string(items) + " items failed: " + text;
-  throw Error(result.failed.front().kind, text);
+  throw Error(result.failed.begin()->second.kind(), text);
 }
 
 void run(const BuildCommand& command) {

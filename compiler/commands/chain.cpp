@@ -67,7 +67,7 @@ void run_invert(const ChainCommand& command) {
   FitOptions options;
   options.id = command.id;
   const Table table = inverse_table(fit, bytes);
-  Fit inverse = fit_table(table, table_text(table), options).fit;
+  Fit inverse = fit_table(table, table_text(table), options);
   add_converter(&inverse);
   write_file(path, fit_to_json(inverse));
   if (command.json) {

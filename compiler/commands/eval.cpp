@@ -57,9 +57,18 @@ void write_grid(const Fit& fit, const EvalOptions& options) {
   write_file(options.output, text);
 }
 
+// Refuses a table of other models, because its errors would say nothing about the fit.
+void require_same_models(const Fit& fit, const Table& table) {
+  const auto pair = [](const auto& ends) { return ends.source.model + " to " + ends.target.model; };
+  if (pair(table) != pair(fit))
+    throw usage_error(table.name + ": is a table of " + pair(table) + ", but " + fit.id + " converts " +
+                      pair(fit) + " (give a table of these models)");
+}
+
 void print_errors(const Fit& fit, const EvalOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
+  require_same_models(fit, table);
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
   if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);

@@ -34,7 +34,7 @@ constexpr int kMostUnits = 4096, kMostStarts = 1000;
 // `auto` comes before the names of the kinds. With it, pictures decide.
 const auto kModels = [] {
   NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
-  for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
+  for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i], kFitKinds[i]};
   return models;
 }();
 
@@ -197,15 +197,16 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   const std::filesystem::path path =
       new_path(command, id.empty() ? converter_id(table.source.model, table.target.model) : id);
   if (!command.plot.empty()) require_plot(command.plot);
-  FittedTable fitted = [&] {
+  std::vector<Fit> compared;
+  Fit fit = [&] {
     ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
-    return fit_table(table, bytes, command.options, std::ref(progress));
+    return fit_table(table, bytes, command.options, std::ref(progress), &compared);
   }();
-  lower_if_possible(command, &fitted.fit);
-  write_file(path, fit_to_json(fitted.fit));
+  lower_if_possible(command, &fit);
+  write_file(path, fit_to_json(fit));
   if (!command.plot.empty())
-    write_plot(command.plot, table, fitted.compared.empty() ? std::vector<Fit>{fitted.fit} : fitted.compared);
-  report(command, path, fitted.fit);
+    write_plot(command.plot, table, compared.empty() ? std::vector<Fit>{fit} : compared);
+  report(command, path, fit);
 }
 
 void run(const FitCommand& command, const Command& app) {

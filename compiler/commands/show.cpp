@@ -216,21 +216,20 @@ void print_round_trip(const Fit& fit, const std::filesystem::path& folder) {
 
 // Prints the three sources of error: between the models, between fit and table, and between header and fit.
 void print_trust(const Fit& fit) {
-  if (fit.image_similarity) {
-    std::cout << "Difference of the models at the best match\n  picture "
-              << figures_text(fit.image_similarity->image_error) << ", relative to the source picture\n";
-    for (const SphereSimilarity& sphere : fit.image_similarity->ssim)
-      std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << sphere.ssim << " at alpha "
-                << std::defaultfloat << number_text(sphere.alpha) << "\n";
+  if (fit.image_error) {
+    std::cout << "Difference of the models at the best match\n  picture " << figures_text(*fit.image_error)
+              << ", relative to the source picture\n";
+    for (const auto& [alpha, ssim] : fit.ssim)
+      std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << ssim << " at alpha "
+                << std::defaultfloat << number_text(alpha) << "\n";
   } else {
     std::cout << "Difference of the models: unknown (not validated by rendering)\n";
   }
   if (fit.pictures)
     std::cout << "Pictures, with materials and lights that the fit did not use\n  RMSE of display values "
-              << fixed(fit.pictures->converted.rmse, 2) << " % (numbers copied "
-              << fixed(fit.pictures->copied.rmse, 2) << " %), under one light "
-              << fixed(100.0 * fit.pictures->converted.relative, 0) << " % of the picture (copied "
-              << fixed(100.0 * fit.pictures->copied.relative, 0) << " %)\n";
+              << fixed(fit.pictures->rmse, 2) << " % (numbers copied " << fixed(fit.copied_pictures->rmse, 2)
+              << " %), under one light " << fixed(100.0 * fit.pictures->relative, 0)
+              << " % of the picture (copied " << fixed(100.0 * fit.copied_pictures->relative, 0) << " %)\n";
   if (!fit.has_errors()) {
     std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {

@@ -27,9 +27,9 @@ std::string provenance(const Fit& fit) {
   std::string text;
   for (const std::string& remark : fit.remarks) text += remark + "\n";
   if (fit.pictures)
-    text += "Pictures of spheres differ by " + fixed(fit.pictures->converted.rmse, 1) +
+    text += "Pictures of spheres differ by " + fixed(fit.pictures->rmse, 1) +
             " % of white on average (root mean square of display values), by " +
-            fixed(fit.pictures->copied.rmse, 1) +
+            fixed(fit.copied_pictures->rmse, 1) +
             " %\nwhere the numbers are copied: lights and materials that had no "
             "part in the fit.\n";
   if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";

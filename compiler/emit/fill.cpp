@@ -1,5 +1,7 @@
 // This file writes the text of a header. templates/frame.in is the frame around the part for each kind.
 // templates/converter*.in is for width and specular, templates/material*.in for whole materials.
+#include <map>
+
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "emit/mapping_code.hpp"
@@ -71,15 +73,14 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-// A Body is the part of a header that differs between kinds.
-struct Body {
-  std::vector<std::string> includes;
-  std::string detail, constants, text;
-};
+std::string include_lines(const std::vector<std::string>& names) {
+  return joined(names, "", [](const std::string& name) { return "#include <" + name + ">\n"; });
+}
 
-Body body_of(const HeaderData& data, const ConverterData& converter) {
+// Return the values of templates/frame.in that differ between kinds.
+std::map<std::string, std::string> values_of(const HeaderData& data, const ConverterData& converter) {
   const ConverterInfo& info = converter.info;
-  // Returns the golden texels, two on each line.
+  // These are the golden texels, two on each line.
   std::string golden;
   for (std::size_t i = 0; i < data.golden.size(); ++i) {
     std::vector<float> values = data.golden[i].in;
@@ -87,62 +88,67 @@ Body body_of(const HeaderData& data, const ConverterData& converter) {
       values.insert(values.end(), more->begin(), more->end());
     golden += numbers(values) + (i % 2 == 0 && i + 1 < data.golden.size() ? ", " : ",\n");
   }
-  Body body;
-  body.includes = {"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"};
-  // Adds the names of specular in both models. Every header has the names of the widths.
-  body.constants = "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
-                   "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular + "\";";
   const auto meaning = [](const HeaderEnd& end) {
     return end.parameters[0].meaning + "; " + end.parameters[1].meaning;
   };
-  body.text = fill_template(code_file("converter"), {{"source_meaning", meaning(data.source)},
-                                                     {"target_meaning", meaning(data.target)},
-                                                     {"golden_count", std::to_string(data.golden.size())},
-                                                     {"golden", golden},
-                                                     {"form", form_code(converter)}});
-  return body;
+  return {
+      {"includes",
+       include_lines({"array", "cstddef", "cstdint", "cstring", "limits", "type_traits", "utility"})},
+      {"detail", ""},
+      // Every header has the names of the widths, so these are only the names of specular in both models.
+      {"constants", "static constexpr const char* kSourceSpecular = \"" + info.source.specular +
+                        "\";\nstatic constexpr const char* kTargetSpecular = \"" + info.target.specular +
+                        "\";"},
+      {"body", fill_template(code_file("converter"), {{"source_meaning", meaning(data.source)},
+                                                      {"target_meaning", meaning(data.target)},
+                                                      {"golden_count", std::to_string(data.golden.size())},
+                                                      {"golden", golden},
+                                                      {"form", form_code(converter)}})}};
 }
 
 template <typename Material>  // a conversion of workflows, or a warp
-Body body_of(const HeaderData& data, const Material& material) {
+std::map<std::string, std::string> values_of(const HeaderData& data, const Material& material) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
   const MaterialCode code = material_code(material);
   const std::string input_count = channel_count(in), output_count = channel_count(out);
   return {
-      {"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"},
-      fill_template(code_file("detail"), {{"id", data.id},
-                                          {"functions", code.functions +
-                                                            fill_template(code_file("material_rows"),
-                                                                          {{"block", code.block},
-                                                                           {"call", code.call},
-                                                                           {"input_count", input_count},
-                                                                           {"output_count", output_count}}) +
-                                                            code_files({"strided"})}}),
-      fill_template(code_file("material_constants"), {{"formula", code.formula},
-                                                      {"source_workflow", data.source.workflow},
-                                                      {"target_workflow", data.target.workflow},
-                                                      {"source_diffuse", data.source.diffuse},
-                                                      {"target_diffuse", data.target.diffuse},
-                                                      {"constants", code.constants}}),
-      fill_template(code_file("material"), {{"id", data.id},
-                                            {"input_members", members(in)},
-                                            {"output_members", members(out)},
-                                            {"input_pointers", pointers(in)},
-                                            {"output_pointers", pointers(out)},
-                                            {"input_strides", strides(in)},
-                                            {"output_strides", strides(out)},
-                                            {"in_strides", channel_strides(in, "in.")},
-                                            {"out_strides", channel_strides(out, "out.")},
-                                            {"input_count", input_count},
-                                            {"output_count", output_count},
-                                            {"in_flat", channels(in, "in.")},
-                                            {"out_flat", channels(out, "out.")},
-                                            {"in_addresses", channels(in, "&in.")},
-                                            {"out_addresses", channels(out, "&out.")},
-                                            {"within", code.within},
-                                            {"golden_count", std::to_string(data.golden.size())},
-                                            {"golden_in", golden_rows(data.golden, &GoldenValues::in)},
-                                            {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})};
+      {"includes",
+       include_lines({"array", "cmath", "cstddef", "cstdint", "cstring", "type_traits", "utility"})},
+      {"detail",
+       fill_template(code_file("detail"), {{"id", data.id},
+                                           {"functions", code.functions +
+                                                             fill_template(code_file("material_rows"),
+                                                                           {{"block", code.block},
+                                                                            {"call", code.call},
+                                                                            {"input_count", input_count},
+                                                                            {"output_count", output_count}}) +
+                                                             code_files({"strided"})}})},
+      {"constants", fill_template(code_file("material_constants"), {{"formula", code.formula},
+                                                                    {"source_workflow", data.source.workflow},
+                                                                    {"target_workflow", data.target.workflow},
+                                                                    {"source_diffuse", data.source.diffuse},
+                                                                    {"target_diffuse", data.target.diffuse},
+                                                                    {"constants", code.constants}})},
+      {"body",
+       fill_template(code_file("material"), {{"id", data.id},
+                                             {"input_members", members(in)},
+                                             {"output_members", members(out)},
+                                             {"input_pointers", pointers(in)},
+                                             {"output_pointers", pointers(out)},
+                                             {"input_strides", strides(in)},
+                                             {"output_strides", strides(out)},
+                                             {"in_strides", channel_strides(in, "in.")},
+                                             {"out_strides", channel_strides(out, "out.")},
+                                             {"input_count", input_count},
+                                             {"output_count", output_count},
+                                             {"in_flat", channels(in, "in.")},
+                                             {"out_flat", channels(out, "out.")},
+                                             {"in_addresses", channels(in, "&in.")},
+                                             {"out_addresses", channels(out, "&out.")},
+                                             {"within", code.within},
+                                             {"golden_count", std::to_string(data.golden.size())},
+                                             {"golden_in", golden_rows(data.golden, &GoldenValues::in)},
+                                             {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})}};
 }
 
 // Makes a line of text safe for a comment. A backslash at its end, even before blanks, or the trigraph of a
@@ -170,21 +176,18 @@ std::string comment_lines(std::string_view text) {
 }  // namespace
 
 std::string fill(const HeaderData& data) {
-  const Body body = std::visit([&](const auto& code) { return body_of(data, code); }, data.code);
-  const auto include = [](const std::string& name) { return "#include <" + name + ">\n"; };
-  return fill_template(code_file("frame"), {{"version", kVersion},
-                                            {"id", data.id},
-                                            {"title", data.title},
-                                            {"provenance", comment_lines(data.provenance)},
-                                            {"guard", "REMAP_GENERATED_" + upper_case(data.id) + "_HPP"},
-                                            {"includes", joined(body.includes, "", include)},
-                                            {"detail", body.detail},
-                                            {"source", data.source.model},
-                                            {"source_width", data.source.width},
-                                            {"target", data.target.model},
-                                            {"target_width", data.target.width},
-                                            {"constants", body.constants},
-                                            {"body", body.text}});
+  std::map<std::string, std::string> values =
+      std::visit([&](const auto& code) { return values_of(data, code); }, data.code);
+  values.insert({{"version", kVersion},
+                 {"id", data.id},
+                 {"title", data.title},
+                 {"provenance", comment_lines(data.provenance)},
+                 {"guard", "REMAP_GENERATED_" + upper_case(data.id) + "_HPP"},
+                 {"source", data.source.model},
+                 {"source_width", data.source.width},
+                 {"target", data.target.model},
+                 {"target_width", data.target.width}});
+  return fill_template(code_file("frame"), values);
 }
 
 }  // namespace remap

@@ -34,8 +34,8 @@ std::string meaning_of(const Fit& fit) {
   };
   std::string text = side(fit.source) + " to " + side(fit.target) + ".";
   if (fit.pictures)
-    text += " Pictures differ by " + fixed(fit.pictures->converted.rmse, 1) +
-            " % of white, where numbers are copied by " + fixed(fit.pictures->copied.rmse, 1) + " %.";
+    text += " Pictures differ by " + fixed(fit.pictures->rmse, 1) +
+            " % of white, where numbers are copied by " + fixed(fit.copied_pictures->rmse, 1) + " %.";
   return text;
 }
 

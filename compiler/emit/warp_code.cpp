@@ -30,28 +30,19 @@ std::string array_text(const std::string& type, const std::string& name, const s
   return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
 }
 
-// A Part is a file of code, and the numbers for one kind of coordinates or of tables.
-struct Part {
-  std::string_view file;
-  std::string numbers;
-};
-
 std::string width_text(const PackedWarp& warp) {
   const std::array numbers = {warp.least_alpha, warp.largest_alpha, warp.width_start, warp.width_scale};
   return "{" + list_text(numbers, 4) + "}";
 }
 
-Part part_of(const PackedWarp& warp, const PackedSeparable& terms) {
-  return {"separable", array_text("float", "kDiffuse", terms.diffuse, 4) +
-                           array_text("float", "kWidthNodes", terms.width_nodes, 16) +
-                           "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
-                           std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n"};
-}
-
-Part part_of(const PackedWarp& warp, const PackedQuadratic& terms) {
-  return {"quadratic", array_text("float", "kWeights", terms.weights, 8) +
-                           "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
-                           width_text(warp) + "};\n"};
+std::string coordinates_of(const PackedWarp& warp) {
+  if (!warp.is_separable())
+    return array_text("float", "kWeights", warp.weights, 8) +
+           "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " + width_text(warp) + "};\n";
+  return array_text("float", "kDiffuse", warp.diffuse, 4) +
+         array_text("float", "kWidthNodes", warp.width_nodes, 16) +
+         "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
+         std::to_string(warp.last_width) + ", " + width_text(warp) + "};\n";
 }
 
 std::string grid_text(const PackedWarp& warp) {
@@ -77,14 +68,13 @@ inline BlendedView<kDimension> table() noexcept {
 }
 )";
 
-Part part_of(const PackedWarp& warp, const BlendedNodes& entries) {
+std::string table_of(const PackedWarp& warp, const BlendedNodes& entries) {
   const std::size_t count = entries.codes.size() / kWarpParameters;
-  return {"blended",
-          fill_template(kBlendedTable, {{"count", std::to_string(count)},
-                                        {"least", list_text(entries.least, 7)},
-                                        {"largest", list_text(entries.largest, 7)},
-                                        {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
-                                        {"grid", grid_text(warp)}})};
+  return fill_template(kBlendedTable, {{"count", std::to_string(count)},
+                                       {"least", list_text(entries.least, 7)},
+                                       {"largest", list_text(entries.largest, 7)},
+                                       {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
+                                       {"grid", grid_text(warp)}});
 }
 
 constexpr std::string_view kCopiedTable = R"(@palette@
@@ -95,20 +85,18 @@ inline CopiedView<kDimension> table() noexcept {
 }
 )";
 
-Part part_of(const PackedWarp& warp, const CopiedNodes& entries) {
-  const std::vector<float>& palette = std::get<PackedCopied>(warp.table).palette;
-  return {"copied", fill_template(kCopiedTable,
-                                  {{"palette", array_text("float", "kPalette", palette, 7)},
-                                   {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
-                                   {"grid", grid_text(warp)}})};
+std::string table_of(const PackedWarp& warp, const CopiedNodes& entries) {
+  return fill_template(kCopiedTable,
+                       {{"palette", array_text("float", "kPalette", warp.palette, 7)},
+                        {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
+                        {"grid", grid_text(warp)}});
 }
 
 }  // namespace
 
 MaterialCode material_code(const WarpHeader& header) {
   const PackedWarp& warp = header.warp;
-  const auto part = [&](const auto& kind) { return part_of(warp, kind); };
-  const Part coordinates = std::visit(part, warp.coordinates), table = std::visit(part, header.entries);
+  const auto table = [&](const auto& entries) { return table_of(warp, entries); };
   const std::string dimension = std::to_string(warp.dimension);
   MaterialCode code;
   code.formula = kWarpKind;
@@ -120,9 +108,10 @@ MaterialCode material_code(const WarpHeader& header) {
       "static constexpr double kCopyRmsError = " +
       double_literal(header.copy_rms_error) + ";\n";
   code.functions =
-      code_files({"bits", "floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
-      "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +
-      table.numbers;
+      code_files({"bits", "floats", "rows", "appearance", warp.is_separable() ? "separable" : "quadratic",
+                  warp.is_blended() ? "blended" : "copied", "warp_block"}) +
+      "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates_of(warp) +
+      std::visit(table, header.entries);
   code.block = "kWarpBlock";
   code.call = "warp_block<" + dimension + ">(detail::kCoordinates, detail::table(), from, to)";
   code.within = "1e-4f";

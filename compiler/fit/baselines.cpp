@@ -15,30 +15,6 @@ std::string width_text(const ModelSide& side) {
          std::string(encoding_name(side.roughness));
 }
 
-// An ExponentFormula converts a Phong exponent and a grey specular to roughness, which is sqrt(alpha).
-struct ExponentFormula {
-  const char* name;
-  const char* formula;
-  double (*roughness)(double exponent, double specular);
-};
-
-const ExponentFormula kExponentFormulas[] = {
-    // The formula comes from facebookincubator/FBX2glTF, getRoughness() for Phong and Blinn materials.
-    {"FBX2glTF", "roughness = sqrt(2 / (2 + n))",
-     [](double n, double) { return std::sqrt(2.0 / (2.0 + n)); }},
-    // The formula comes from xelatihy/yocto-gl, exponent_to_roughness().
-    {"Yocto", "roughness = (2 / (n + 2))^(1/4)",
-     [](double n, double) { return std::pow(2.0 / (n + 2.0), 0.25); }},
-    // Blender's OBJ importer clamps Ns to 0 to 1000.
-    {"Blender OBJ", "roughness = 1 - sqrt(min(n, 1000) / 1000)",
-     [](double n, double) { return 1.0 - std::sqrt(std::clamp(n, 0.0, 1000.0) / 1000.0); }},
-    // The formula comes from assimp's glTF2 exporter. Its specular intensity is the luma of Ks.
-    {"assimp", "roughness = 1 - sqrt(n / 1000) luma(Ks)",
-     [](double n, double specular) { return 1.0 - clamp01(std::sqrt(n / 1000.0)) * specular; }},
-    // The formula comes from CesiumGS/obj2gltf, materials from Ns.
-    {"obj2gltf", "roughness = 1 - n / 1000", [](double n, double) { return clamp01(1.0 - n / 1000.0); }},
-};
-
 // pbrt-v3 has this formula by Pharr, Jakob and Humphreys, in TrowbridgeReitzDistribution::RoughnessToAlpha().
 double pbrt_alpha(double roughness) {
   const double x = std::log(std::max(roughness, 1e-3));
@@ -86,12 +62,30 @@ std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target
       [](double alpha, double specular) {
         return MappedTexel{pbrt_alpha(from_alpha(Convention::kRoughness, alpha)), specular};
       });
-  for (const ExponentFormula& formula : kExponentFormulas)
-    add(formula.name, formula.formula, from_exponent ? "" : width_text(source) + ", not an exponent",
-        [roughness = formula.roughness](double alpha, double specular) {
+  // The following formulas convert a Phong exponent n and a grey specular to roughness, which is sqrt(alpha).
+  const auto add_exponent = [&](const char* name, const char* formula,
+                                double (*roughness)(double exponent, double specular)) {
+    add(name, formula, from_exponent ? "" : width_text(source) + ", not an exponent",
+        [roughness](double alpha, double specular) {
           const double r = roughness(from_alpha(Convention::kExponent, alpha), specular);
           return MappedTexel{r * r, specular};
         });
+  };
+  // The formula comes from facebookincubator/FBX2glTF, getRoughness() for Phong and Blinn materials.
+  add_exponent("FBX2glTF", "roughness = sqrt(2 / (2 + n))",
+               [](double n, double) { return std::sqrt(2.0 / (2.0 + n)); });
+  // The formula comes from xelatihy/yocto-gl, exponent_to_roughness().
+  add_exponent("Yocto", "roughness = (2 / (n + 2))^(1/4)",
+               [](double n, double) { return std::pow(2.0 / (n + 2.0), 0.25); });
+  // Blender's OBJ importer clamps Ns to 0 to 1000.
+  add_exponent("Blender OBJ", "roughness = 1 - sqrt(min(n, 1000) / 1000)",
+               [](double n, double) { return 1.0 - std::sqrt(std::clamp(n, 0.0, 1000.0) / 1000.0); });
+  // The formula comes from assimp's glTF2 exporter. Its specular intensity is the luma of Ks.
+  add_exponent("assimp", "roughness = 1 - sqrt(n / 1000) luma(Ks)",
+               [](double n, double specular) { return 1.0 - clamp01(std::sqrt(n / 1000.0)) * specular; });
+  // The formula comes from CesiumGS/obj2gltf, materials from Ns.
+  add_exponent("obj2gltf", "roughness = 1 - n / 1000",
+               [](double n, double) { return clamp01(1.0 - n / 1000.0); });
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/errors.hpp"
@@ -29,11 +30,6 @@ constexpr double kNarrowWidth = 0.05;
 constexpr double kNarrowWeight = 3.0, kShownWeight = 0.3;
 constexpr std::size_t kMostRows = 60;  // largest number of narrow rows, and of other rows
 
-struct Candidate {
-  CandidateRecord record;  // the verdict is empty while it may be chosen
-  Fit fit;                 // has errors on the held-out rows; undefined if the candidate failed
-};
-
 FormSample sample_of(const TableRow& row) {
   const bool is_corner = row.status == RowStatus::kCorner;
   return {{row.alpha1, row.specular1},
@@ -48,15 +44,10 @@ std::vector<FormSample> samples_of(const std::vector<TableRow>& rows) {
   return samples;
 }
 
-struct WeightedSample {
-  FormSample sample;
-  double weight = 0.0;
-};
-
 // Returns some of the rows below the limits, with weights proportional to the number of pictures
 // (`pictures`).
-std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
-  std::vector<WeightedSample> all;
+std::vector<FormSample> weighted_samples(const std::vector<FormSample>& samples, std::size_t pictures) {
+  std::vector<FormSample> all;
   for (const bool is_narrow : {true, false}) {
     std::vector<FormSample> kept;
     for (const FormSample& sample : samples)
@@ -66,7 +57,10 @@ std::vector<WeightedSample> weighted_samples(const std::vector<FormSample>& samp
     const std::size_t step = kept.size() / kMostRows + 1, count = (kept.size() + step - 1) / step;
     const double weight = (is_narrow ? kNarrowWeight : kShownWeight) * static_cast<double>(pictures) /
                           static_cast<double>(std::max<std::size_t>(count, 1));
-    for (std::size_t i = 0; i < kept.size(); i += step) all.push_back({kept[i], weight});
+    for (std::size_t i = 0; i < kept.size(); i += step) {
+      all.push_back(kept[i]);
+      all.back().weight = weight;
+    }
   }
   return all;
 }
@@ -78,14 +72,14 @@ CompactForm refined(const std::vector<CompactForm>& starts, const Domain& domain
                     const std::vector<FormSample>& samples) {
   std::vector<MappedTexel> sources = pictures.sources();
   const std::size_t shown = sources.size();
-  const std::vector<WeightedSample> rows = weighted_samples(samples, shown);
-  for (const WeightedSample& row : rows) sources.push_back(row.sample.source);
+  const std::vector<FormSample> rows = weighted_samples(samples, shown);
+  for (const FormSample& row : rows) sources.push_back(row.source);
   const TexelErrors by_pictures = pictures.choosing_errors(unit);
   const TexelErrors errors = [&](const std::vector<MappedTexel>& targets) {
     std::vector<TexelError> all =
         by_pictures({targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(shown)});
     for (std::size_t r = 0; r < rows.size(); ++r)
-      all.push_back(row_error(targets[shown + r], rows[r].sample.target, rows[r].weight));
+      all.push_back(row_error(targets[shown + r], rows[r].target, rows[r].weight));
     return all;
   };
   return refined_form(starts, domain, sources, errors, kIterations);
@@ -133,11 +127,12 @@ CandidateRecord record_of(const std::string& name, const RowSplit& split, const 
   record.specular = error_figures(residuals.specular);
   record.relative_alpha = relative_rms(residuals.alpha, alphas);
   record.relative_specular = relative_rms(residuals.specular, speculars);
-  if (fit.pictures) record.pictures = fit.pictures->converted;
+  record.pictures = fit.pictures;
   return record;
 }
 
-bool may_be_chosen(const Candidate& candidate) { return candidate.record.verdict.empty(); }
+// Before the choice, only candidates that failed have a verdict.
+bool may_be_chosen(const CandidateRecord& candidate) { return candidate.verdict.empty(); }
 
 // Runs `work`. If it throws, returns `what: why`, otherwise an empty text. Interruptions are not caught.
 template <typename Work>
@@ -152,12 +147,11 @@ std::string failure_of(const std::string& what, const Work& work) {
 }
 
 // Writes the verdicts and returns the index of the chosen candidate.
-std::size_t choose(std::vector<Candidate>& candidates) {
+std::size_t choose(std::vector<CandidateRecord>& candidates) {
   PictureErrors best{INFINITY, INFINITY};
   double alpha = INFINITY, specular = INFINITY;
-  for (const Candidate& candidate : candidates) {
-    if (!may_be_chosen(candidate)) continue;
-    const CandidateRecord& record = candidate.record;
+  for (const CandidateRecord& record : candidates) {
+    if (!may_be_chosen(record)) continue;
     if (record.pictures)
       best = {std::min(best.rmse, record.pictures->rmse), std::min(best.relative, record.pictures->relative)};
     alpha = std::min(alpha, record.relative_alpha);
@@ -180,25 +174,24 @@ std::size_t choose(std::vector<Candidate>& candidates) {
       chosen = i;
       continue;
     }
-    const double here = distance(candidates[i].record), there = distance(candidates[chosen].record);
+    const double here = distance(candidates[i]), there = distance(candidates[chosen]);
     const bool is_near = here <= 1.0, was_near = there <= 1.0;
     if (is_near != was_near ? is_near
-        : is_near           ? candidates[i].record.number_count < candidates[chosen].record.number_count
+        : is_near           ? candidates[i].number_count < candidates[chosen].number_count
                             : here < there)
       chosen = i;
   }
   if (chosen == candidates.size()) {
     std::string reasons;
-    for (const Candidate& candidate : candidates)
-      reasons += "; " + candidate.record.name + ": " + candidate.record.verdict;
+    for (const CandidateRecord& candidate : candidates)
+      reasons += "; " + candidate.name + ": " + candidate.verdict;
     throw numeric_error("fit: no form fits the table" + reasons);
   }
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (may_be_chosen(candidates[i]))
-      candidates[i].record.verdict = i == chosen ? "chosen"
-                                     : distance(candidates[i].record) <= 1.0
-                                         ? "more numbers for no other picture"
-                                         : "farther from the best";
+      candidates[i].verdict = i == chosen                      ? "chosen"
+                              : distance(candidates[i]) <= 1.0 ? "more numbers for no other picture"
+                                                               : "farther from the best";
   return chosen;
 }
 
@@ -211,14 +204,16 @@ void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit) {
   if (pictures == nullptr) return;
   const TexelMap map = [fit](double alpha, double specular) { return evaluate_fit(*fit, alpha, specular); };
   const TexelMap copied = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
-  fit->pictures = {pictures->judged(map), pictures->judged(copied)};
+  fit->pictures = pictures->judged(map);
+  fit->copied_pictures = pictures->judged(copied);
 }
 
-FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
-                          const FitProgress& progress) {
+Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                  const FitProgress& progress, std::vector<Fit>* compared) {
   const std::vector<FormSample> samples = samples_of(split.training);
   const std::vector<FormShape> shapes = form_shapes();
-  std::vector<Candidate> candidates;  // in the order in which they are printed
+  std::vector<CandidateRecord> candidates;  // in the order in which they are printed
+  std::vector<Fit> fits;                    // of each candidate, without a mapping if it failed
   PictureErrors unit;
   if (pictures != nullptr) {
     const CompactForm by_rows = fit_form(samples, base.limits, base.domain, kUnitShape);
@@ -226,13 +221,14 @@ FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPict
         [&](double alpha, double specular) { return form_texel(by_rows, base.domain, alpha, specular); });
   }
   const auto enter = [&](const std::string& name, const auto& mapping_of) {
-    Candidate& candidate = candidates.emplace_back();
-    candidate.record.name = name;
-    candidate.record.verdict = failure_of("not fitted", [&] {
-      candidate.fit = base;
-      candidate.fit.mapping = mapping_of();
-      judge_fit(split, pictures, &candidate.fit);
-      candidate.record = record_of(name, split, candidate.fit);
+    CandidateRecord& candidate = candidates.emplace_back();
+    Fit& fit = fits.emplace_back();
+    candidate.name = name;
+    candidate.verdict = failure_of("not fitted", [&] {
+      fit = base;
+      fit.mapping = mapping_of();
+      judge_fit(split, pictures, &fit);
+      candidate = record_of(name, split, fit);
     });
     if (progress) progress(static_cast<double>(candidates.size()) / static_cast<double>(shapes.size() + 1));
   };
@@ -257,14 +253,14 @@ FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPict
       return within_limits(rounded_form(form), base.domain, base.limits);
     });
   }
-  Fit& chosen = candidates[choose(candidates)].fit;
+  Fit& chosen = fits[choose(candidates)];
   chosen.method["chosen by"] =
       pictures != nullptr ? "pictures of other materials under other lights" : "rows held out";
-  FittedTable fitted{chosen, {}};
-  for (const Candidate& candidate : candidates) {
-    fitted.fit.candidates.push_back(candidate.record);
-    if (candidate.fit.id == base.id) fitted.compared.push_back(candidate.fit);
-  }
+  Fit fitted = chosen;
+  fitted.candidates = candidates;
+  if (compared != nullptr)
+    std::ranges::copy_if(fits, std::back_inserter(*compared),
+                         [&](const Fit& fit) { return fit.id == base.id; });
   return fitted;
 }
 

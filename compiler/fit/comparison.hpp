@@ -10,12 +10,6 @@
 
 namespace remap {
 
-// A FittedTable is a fit and the fits of the same table that it was compared with, for plots.
-struct FittedTable {
-  Fit fit;
-  std::vector<Fit> compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
-};
-
 // Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
 // without its mapping. If `pictures` is not null and has the pair of models, pictures then refine the forms.
 // Otherwise, only rows are used.
@@ -24,8 +18,11 @@ struct FittedTable {
 // With pictures, both errors must be within 1 % of the best (or the RMSE within .05 points, which is an
 // eighth of an 8-bit step). Without pictures, both relative errors on the held-out rows must be within 1 %,
 // or within .01, which pictures do not show. Throws kNumeric with the reasons if no candidate is sound.
-FittedTable compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
-                          const FitProgress& progress);
+//
+// If `compared` is not null, it receives the fits that were compared, for plots, in the order of the
+// candidates.
+Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                  const FitProgress& progress, std::vector<Fit>* compared = nullptr);
 
 // Sets the errors on the held-out rows and, if there are pictures, the errors of pictures.
 void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit);

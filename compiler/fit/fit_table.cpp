@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -37,8 +38,8 @@ void require_models(const Table& table) {
 constexpr double kLeastShare = 0.02;
 
 // Parses the pairs of numbers in kSpheresComment, and skips invalid pairs.
-std::vector<SphereSimilarity> spheres_of(const Table& table) {
-  std::vector<SphereSimilarity> spheres;
+std::map<double, double> spheres_of(const Table& table) {
+  std::map<double, double> spheres;
   for (const auto& [key, value] : table.comments) {
     if (key != kSpheresComment) continue;
     std::istringstream pairs(value);
@@ -46,25 +47,25 @@ std::vector<SphereSimilarity> spheres_of(const Table& table) {
       const std::size_t space = pair.find(' ');
       const auto alpha = parse_number(pair.substr(0, space));
       const auto ssim = space == std::string::npos ? std::nullopt : parse_number(pair.substr(space + 1));
-      if (alpha && ssim) spheres.push_back({*alpha, *ssim});
+      if (alpha && ssim) spheres.emplace(*alpha, *ssim);
     }
   }
   return spheres;
 }
 
-// Returns the similarity of pictures at the best parameters, for `rows`, if the table has it.
-std::optional<ImageSimilarity> image_similarity(const Table& table, const std::vector<TableRow>& rows) {
+// Returns the errors of pictures at the best parameters, if all `rows` have them.
+std::optional<ErrorFigures> image_error(const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
     if (!std::isnan(row.error)) errors.push_back(row.error);
   if (errors.empty() || errors.size() != rows.size()) return std::nullopt;
-  return ImageSimilarity{error_figures(std::move(errors)), spheres_of(table)};
+  return error_figures(std::move(errors));
 }
 
 }  // namespace
 
-FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
-                      const FitProgress& progress) {
+Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
+              const FitProgress& progress, std::vector<Fit>* compared) {
   require_models(table);
   require_fittable(table, options.accept_light);
   Fit fit;
@@ -79,22 +80,22 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.split = split.record;
   std::vector<TableRow> answers = split.training;
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
-  fit.image_similarity = image_similarity(table, answers);
+  fit.image_error = image_error(answers);
+  if (fit.image_error) fit.ssim = spheres_of(table);
   fit.limits = table.limits;
   // If the fit is an inverse, similar pictures do not suffice. It must return the parameters of the source.
   const bool is_inverse = fit.table.comments.contains("inverse_of");
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);
   if (!options.kind.empty()) {
-    const Regression regression =
-        fit_kind(options.kind).fit(inside_rows(split.training), fit.domain, options, progress);
+    const Regression regression = fit_kind(inside_rows(split.training), fit.domain, options, progress);
     fit.mapping = regression.mapping;
     fit.method = regression.method;
     if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;
     judge_fit(split, pictures.get(), &fit);
-    return {fit, {}};
+    return fit;
   }
-  return compare_forms(fit, split, pictures.get(), progress);
+  return compare_forms(fit, split, pictures.get(), progress, compared);
 }
 
 }  // namespace remap

@@ -22,18 +22,13 @@ struct FitOptions {
   bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
 };
 
-// A FitKind is a regression that a user can choose. It fits the rows below the limits of the target. If the
-// user chooses none, forms are compared (comparison.hpp).
-struct FitKind {
-  std::string_view name;
-  // Fits the rows. The curves must be sound in `domain`. Throws the errors of the regression.
-  Regression (*fit)(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
-                    const FitProgress& progress);
-};
+// These are the regressions that a user can choose. If the user chooses none, forms are compared
+// (comparison.hpp).
+inline constexpr std::array<std::string_view, 3> kFitKinds = {"parametric", "svr", "mlp"};
 
-extern const std::array<FitKind, 3> kFitKinds;
-
-// Returns a kind by its name. Throws kUsage for a name that is not in the list.
-const FitKind& fit_kind(std::string_view name);
+// Fits the rows below the limits of the target by the kind of the options. The curves must be sound in
+// `domain`. Throws kUsage for a kind that is not in the list, and the errors of the regression.
+Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
+                    const FitProgress& progress = {});
 
 }  // namespace remap

@@ -34,7 +34,7 @@ std::optional<double> three_digits(const std::optional<double>& value) {
 std::optional<PictureDifference> picture_difference(const Fit& fit) {
   if (!fit.pictures) return std::nullopt;
   const auto one_decimal = [](double percent) { return std::round(10.0 * percent) / 10.0; };
-  return PictureDifference{one_decimal(fit.pictures->converted.rmse), one_decimal(fit.pictures->copied.rmse)};
+  return PictureDifference{one_decimal(fit.pictures->rmse), one_decimal(fit.copied_pictures->rmse)};
 }
 
 // Returns golden texels. The errors are bounds of target alpha and, within the domain, of target specular.
@@ -64,33 +64,30 @@ std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, doubl
   return texels;
 }
 
-ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
-  const bool has_pictures = fit.image_similarity.has_value();
-  ConverterData data;
-  data.info = {fit.id,
-               fit.source,
-               fit.target,
-               own_roughness_range(fit),
-               specular_range(fit),
-               two_digits(fit.follows_rows(), fit.alpha_error.rms),
-               two_digits(fit.follows_rows(), fit.specular_error.rms),
-               two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
-               three_digits(mean_ssim(fit)),
-               picture_difference(fit),
-               is_copy(lowered.form),
-               InstructionSet::kBaseline,
-               {}};
-  data.form = lowered.form;
-  data.alpha_bound = lowered.alpha_bound;
-  data.specular_bound = lowered.specular_bound;
-  data.golden = golden_texels(fit, lowered.alpha_bound, lowered.specular_bound);
-  return data;
+ConverterInfo info_of(const Fit& fit, const CompactForm& form) {
+  const bool has_pictures = fit.image_error.has_value();
+  return {fit.id,
+          fit.source,
+          fit.target,
+          own_roughness_range(fit),
+          specular_range(fit),
+          two_digits(fit.follows_rows(), fit.alpha_error.rms),
+          two_digits(fit.follows_rows(), fit.specular_error.rms),
+          two_digits(has_pictures, has_pictures ? fit.image_error->rms : 0.0),
+          three_digits(mean_ssim(fit)),
+          picture_difference(fit),
+          is_copy(form),
+          InstructionSet::kBaseline,
+          {}};
 }
 
 }  // namespace
 
 void add_converter(Fit* fit, double tolerance) {
-  fit->converter = converter_data(*fit, lower(*fit, tolerance));
+  ConverterData converter = lower(*fit, tolerance);
+  converter.info = info_of(*fit, converter.form);
+  converter.golden = golden_texels(*fit, converter.alpha_bound, converter.specular_bound);
+  fit->converter = std::move(converter);
 }
 
 }  // namespace remap

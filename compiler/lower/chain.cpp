@@ -123,26 +123,25 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
   return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
 }
 
-// A CarriedErrors propagates the errors of all steps to the end of the chain. Rms errors are added as squares
-// and averaged over the domain. Other errors are added, and the maximum over the domain is used.
-struct CarriedErrors {
-  double square = 0.0;
-  ErrorFigures figures;
-  void add(const std::array<double, 2>& row, const ErrorFigures& alpha, const ErrorFigures& specular,
-           ErrorFigures* here) {
-    const double a = std::fabs(row[0]), s = std::fabs(row[1]);
-    square += a * a * alpha.rms * alpha.rms + s * s * specular.rms * specular.rms;
-    here->p99 += a * alpha.p99 + s * specular.p99;
-    here->max += a * alpha.max + s * specular.max;
-  }
-  void take(const ErrorFigures& here) {
-    figures.p99 = std::max(figures.p99, here.p99);
-    figures.max = std::max(figures.max, here.max);
-  }
-};
+// Adds the errors of one step to the errors of an output, `here` at one place and `all` over all places.
+// `row` holds the derivatives of the output. Until the end, `rms` of all places is the sum of squares.
+void add_step(const std::array<double, 2>& row, const Fit& step, ErrorFigures* here, ErrorFigures* all) {
+  const double a = std::fabs(row[0]), s = std::fabs(row[1]);
+  const ErrorFigures &alpha = step.alpha_error, &specular = step.specular_error;
+  all->rms += a * a * alpha.rms * alpha.rms + s * s * specular.rms * specular.rms;
+  here->p99 += a * alpha.p99 + s * specular.p99;
+  here->max += a * alpha.max + s * specular.max;
+}
 
+void raise(const ErrorFigures& here, ErrorFigures* all) {
+  all->p99 = std::max(all->p99, here.p99);
+  all->max = std::max(all->max, here.max);
+}
+
+// Propagates the errors of all steps to the end of the chain. Rms errors are added as squares and averaged
+// over the domain. Other errors are added, and the maximum over the domain is used.
 void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
-  CarriedErrors alpha, specular;
+  ErrorFigures &alpha = chain->alpha_error, &specular = chain->specular_error;
   for (int i = 0; i < kCoarse; ++i)
     for (int j = 1; j <= kCoarse; ++j) {
       const std::vector<MappedTexel> passed =
@@ -152,26 +151,23 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
         if (!steps[s].follows_rows()) continue;
         const Jacobian rest = s + 1 == steps.size() ? Jacobian{{{1.0, 0.0}, {0.0, 1.0}}}
                                                     : jacobian(steps, s + 1, passed[s + 1]);
-        alpha.add(rest[0], steps[s].alpha_error, steps[s].specular_error, &alpha_here);
-        specular.add(rest[1], steps[s].alpha_error, steps[s].specular_error, &specular_here);
+        add_step(rest[0], steps[s], &alpha_here, &alpha);
+        add_step(rest[1], steps[s], &specular_here, &specular);
       }
-      alpha.take(alpha_here);
-      specular.take(specular_here);
+      raise(alpha_here, &alpha);
+      raise(specular_here, &specular);
     }
-  const double points = kCoarse * kCoarse;
-  chain->alpha_error = alpha.figures;
-  chain->specular_error = specular.figures;
-  chain->alpha_error.rms = std::sqrt(alpha.square / points);
-  chain->specular_error.rms = std::sqrt(specular.square / points);
+  for (ErrorFigures* figures : {&alpha, &specular})
+    figures->rms = std::sqrt(figures->rms / (kCoarse * kCoarse));
 }
 
-std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) {
-  ImageSimilarity sum;
+std::optional<ErrorFigures> summed_image_error(const std::vector<Fit>& steps) {
+  ErrorFigures sum;
   for (const Fit& step : steps) {
-    if (!step.image_similarity) return std::nullopt;
-    sum.image_error.rms += step.image_similarity->image_error.rms;
-    sum.image_error.p99 += step.image_similarity->image_error.p99;
-    sum.image_error.max += step.image_similarity->image_error.max;
+    if (!step.image_error) return std::nullopt;
+    sum.rms += step.image_error->rms;
+    sum.p99 += step.image_error->p99;
+    sum.max += step.image_error->max;
   }
   return sum;
 }
@@ -222,7 +218,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.limits = steps.back().limits;
   chain.mapping = composed_form(steps, chain);
   carry_errors(steps, &chain);
-  chain.image_similarity = summed_similarity(steps);
+  chain.image_error = summed_image_error(steps);
   chain.tool_version = kVersion;
   const ChainDifference difference = difference_from_steps(chain, steps);
   const auto digits = [](double value) { return number_text(rounded_up(value, 2)); };

@@ -30,16 +30,12 @@ struct Limits {
   bool operator==(const Limits&) const = default;
 };
 
-// A PictureErrors states how much pictures differ from the source's pictures, either with converted or with
-// copied numbers. Materials and lights are others than those of the fit (compiler/lights/pair_pictures.hpp).
+// A PictureErrors states how much pictures differ from the source's pictures. Materials and lights are others
+// than those of the fit (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // RMSE of display values under environments, in percent of the display's range
   double relative = 0.0;  // error of linear radiance under a point light, relative to the RMS of the source
   bool operator==(const PictureErrors&) const = default;
-};
-struct JudgedPictures {
-  PictureErrors converted, copied;
-  bool operator==(const JudgedPictures&) const = default;
 };
 
 // An ErrorFigures holds absolute errors of one output over the held-out rows.
@@ -82,34 +78,26 @@ struct CandidateRecord {
   bool operator==(const CandidateRecord&) const = default;
 };
 
-// A SphereSimilarity is the structural similarity (Wang et al. 2004) of two spheres, source and target at the
-// best parameters, at one source width.
-struct SphereSimilarity {
-  double alpha = 0.0;
-  double ssim = 0.0;
-  bool operator==(const SphereSimilarity&) const = default;
-};
-
-// An ImageSimilarity states how well the two models can match, from the rows of the table in the domain.
-struct ImageSimilarity {
-  ErrorFigures image_error;  // difference of pictures relative to the source's, with the weights of the match
-  std::vector<SphereSimilarity> ssim;  // sorted by alpha; empty if no spheres were compared
-  bool operator==(const ImageSimilarity&) const = default;
-};
-
 struct Fit {
   std::string id;  // `<source>_to_<target>`, a C++ identifier
   ModelSide source;
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  Limits limits;                                    // limits of the target
-  std::map<std::string, std::string> method;        // how it was found: hyper-parameters, search, starts
-  std::vector<CandidateRecord> candidates;          // only with --model auto
-  ErrorFigures alpha_error;                         // error of the target's alpha
-  ErrorFigures specular_error;                      // error of the target's specular
-  std::optional<ImageSimilarity> image_similarity;  // empty for formulas from publications
-  std::optional<JudgedPictures> pictures;           // none if the built-in renderer lacks one of the models
+  Limits limits;                              // limits of the target
+  std::map<std::string, std::string> method;  // how it was found: hyper-parameters, search, starts
+  std::vector<CandidateRecord> candidates;    // only with --model auto
+  ErrorFigures alpha_error;                   // error of the target's alpha
+  ErrorFigures specular_error;                // error of the target's specular
+  // The next two state how well the two models can match, from the rows of the table in the domain. They are
+  // empty for formulas from publications. The first is the difference of pictures relative to the source's,
+  // with the weights of the match. The second is the structural similarity (Wang et al. 2004) of two spheres,
+  // source and target at the best parameters, by source alpha, if spheres were compared.
+  std::optional<ErrorFigures> image_error;
+  std::map<double, double> ssim;
+  // These are errors of pictures with converted numbers, and with copied ones. If the built-in renderer lacks
+  // one of the models, there are none.
+  std::optional<PictureErrors> pictures, copied_pictures;
   std::vector<std::string> remarks;  // lines of the model card: sources, errata, limits of the pair
   Split split;
   TableRecord table;

@@ -93,12 +93,12 @@ Json to_json(const CandidateRecord& candidate) {
           {"verdict", candidate.verdict}};
 }
 
-Json to_json(const std::optional<ImageSimilarity>& image_similarity) {
-  if (!image_similarity) return nullptr;
+Json similarity_json(const Fit& fit) {
+  if (!fit.image_error) return nullptr;
   Json spheres = Json::list();
-  for (const auto& [alpha, ssim] : image_similarity->ssim)
+  for (const auto& [alpha, ssim] : fit.ssim)
     spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
-  return {{"image_error", figures_json(image_similarity->image_error)}, {"spheres", spheres}};
+  return {{"image_error", figures_json(*fit.image_error)}, {"spheres", spheres}};
 }
 
 double read_rate(const Field& field) {
@@ -209,11 +209,6 @@ PictureErrors read_pictures(const Field& field) {
   return {field["rmse"].number(), field["relative"].number()};
 }
 
-std::optional<JudgedPictures> read_judged(const Field& field) {
-  if (field.is_null()) return std::nullopt;
-  return JudgedPictures{read_pictures(field["converted"]), read_pictures(field["copied"])};
-}
-
 CandidateRecord read_candidate(const Field& field) {
   const Field pictures = field["pictures"];
   return {field["name"].text(),
@@ -226,11 +221,13 @@ CandidateRecord read_candidate(const Field& field) {
           field["verdict"].text()};
 }
 
-std::optional<ImageSimilarity> read_similarity(const Field& field) {
-  if (field.is_null()) return std::nullopt;
-  return ImageSimilarity{read_figures(field["image_error"]), field["spheres"].list(0, [](const Field& entry) {
-                           return SphereSimilarity{entry["alpha"].number(), entry["ssim"].number()};
-                         })};
+void read_similarity(const Field& field, Fit* fit) {
+  if (field.is_null()) return;
+  fit->image_error = read_figures(field["image_error"]);
+  field["spheres"].list(0, [&](const Field& entry) {
+    fit->ssim.emplace(entry["alpha"].number(), entry["ssim"].number());
+    return 0;
+  });
 }
 
 // Refuses a converter that was made from another fit. Either its models differ, or its golden texels
@@ -271,10 +268,10 @@ std::string fit_to_json(const Fit& fit) {
       {"candidates", candidates},
       {"error_on_held_out_rows",
        {{"alpha", figures_json(fit.alpha_error)}, {"specular", figures_json(fit.specular_error)}}},
-      {"similarity", to_json(fit.image_similarity)},
-      {"pictures", fit.pictures ? Json({{"converted", to_json(fit.pictures->converted)},
-                                        {"copied", to_json(fit.pictures->copied)}})
-                                : Json()},
+      {"similarity", similarity_json(fit)},
+      {"pictures",
+       fit.pictures ? Json({{"converted", to_json(*fit.pictures)}, {"copied", to_json(*fit.copied_pictures)}})
+                    : Json()},
       {"remarks", fit.remarks},
       {"split", split_json(fit.split)},
       {"table", table_record_json(fit.table)},
@@ -304,8 +301,11 @@ Fit read_fit(const Field& root) {
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
-  fit.image_similarity = read_similarity(root["similarity"]);
-  fit.pictures = read_judged(root["pictures"]);
+  read_similarity(root["similarity"], &fit);
+  if (const Field pictures = root["pictures"]; !pictures.is_null()) {
+    fit.pictures = read_pictures(pictures["converted"]);
+    fit.copied_pictures = read_pictures(pictures["copied"]);
+  }
   fit.remarks = root["remarks"].texts();
   fit.split = read_split(root["split"]);
   fit.table = read_table_record(root["table"]);

@@ -133,17 +133,11 @@ double sum_of(const std::vector<TexelError>& errors) {
   return sum;
 }
 
-// A NormalEquations holds the derivatives of the sum of errors with respect to the numbers of the form: the
-// gradient and the curvature.
-struct NormalEquations {
-  Eigen::MatrixXd curvature;
-  Eigen::VectorXd gradient;
-};
-
-NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
-                                 const std::vector<MappedTexel>& sources,
-                                 const std::vector<MappedTexel>& targets,
-                                 const std::vector<TexelError>& errors) {
+// Returns, for each source, the derivatives of target alpha and target specular with respect to the numbers
+// of the form.
+std::vector<Eigen::MatrixXd> slopes_of(const CompactForm& form, const Domain& domain,
+                                       const std::vector<MappedTexel>& sources,
+                                       const std::vector<MappedTexel>& targets) {
   const std::vector<double> numbers = numbers_of(form);
   const auto count = static_cast<Eigen::Index>(numbers.size());
   std::vector<Eigen::MatrixXd> slopes(sources.size(), Eigen::MatrixXd(2, count));
@@ -158,15 +152,28 @@ NormalEquations normal_equations(const CompactForm& form, const Domain& domain,
       slopes[r](1, k) = (beyond[r].specular - targets[r].specular) / step;
     }
   }
-  NormalEquations equations{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
-  for (std::size_t r = 0; r < sources.size(); ++r) {
-    const TexelError& error = errors[r];
+  return slopes;
+}
+
+// Return the derivatives of the sum of errors with respect to the numbers of the form.
+Eigen::MatrixXd curvature_of(const std::vector<Eigen::MatrixXd>& slopes,
+                             const std::vector<TexelError>& errors) {
+  const Eigen::Index count = slopes.front().cols();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t r = 0; r < slopes.size(); ++r) {
     Eigen::Matrix2d curvature;
-    curvature << error.by_alpha_2, error.by_both, error.by_both, error.by_specular_2;
-    equations.curvature += slopes[r].transpose() * curvature * slopes[r];
-    equations.gradient += slopes[r].transpose() * Eigen::Vector2d(error.by_alpha, error.by_specular);
+    curvature << errors[r].by_alpha_2, errors[r].by_both, errors[r].by_both, errors[r].by_specular_2;
+    sum += slopes[r].transpose() * curvature * slopes[r];
   }
-  return equations;
+  return sum;
+}
+
+Eigen::VectorXd gradient_of(const std::vector<Eigen::MatrixXd>& slopes,
+                            const std::vector<TexelError>& errors) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(slopes.front().cols());
+  for (std::size_t r = 0; r < slopes.size(); ++r)
+    sum += slopes[r].transpose() * Eigen::Vector2d(errors[r].by_alpha, errors[r].by_specular);
+  return sum;
 }
 
 // Returns the best form that a search from `start` finds, and the sum of its errors.
@@ -178,15 +185,17 @@ std::pair<CompactForm, double> refined_from(const CompactForm& start, const Doma
   std::vector<TexelError> here = errors(targets);
   double least = sum_of(here), damping = 1e-3;
   for (int i = 0; i < iterations; ++i) {
-    const NormalEquations equations = normal_equations(best, domain, sources, targets, here);
+    const std::vector<Eigen::MatrixXd> slopes = slopes_of(best, domain, sources, targets);
+    const Eigen::MatrixXd undamped = curvature_of(slopes, here);
+    const Eigen::VectorXd gradient = gradient_of(slopes, here);
     const std::vector<double> numbers = numbers_of(best);
     bool is_better = false;
     for (int attempt = 0; attempt < 6 && !is_better; ++attempt, damping *= 6.0) {
-      Eigen::MatrixXd curvature = equations.curvature;
+      Eigen::MatrixXd curvature = undamped;
       const double ridge = kRidge * curvature.trace();
       for (Eigen::Index k = 0; k < curvature.rows(); ++k)
         curvature(k, k) += damping * curvature(k, k) + ridge;
-      const Eigen::VectorXd step = curvature.ldlt().solve(equations.gradient);
+      const Eigen::VectorXd step = curvature.ldlt().solve(gradient);
       std::vector<double> moved = numbers;
       for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= step[static_cast<Eigen::Index>(k)];
       const CompactForm tried = with_numbers(best, moved);

@@ -14,6 +14,7 @@ namespace remap {
 struct FormSample {
   MappedTexel source, target;
   bool alpha_at_limit = false, specular_at_limit = false;
+  double weight = 1.0;  // weight of its errors
 };
 
 // A FormShape has the terms t^j alpha^i of both factors, with j < powers and i < terms - j. If powers is 1,

@@ -43,8 +43,8 @@ std::vector<FormSample> samples_of(const Fit& fit) {
   return samples;
 }
 
-Distance sampled_distance(const CompactForm& form, const std::vector<FormSample>& samples) {
-  Distance most;
+MappedTexel sampled_distance(const CompactForm& form, const std::vector<FormSample>& samples) {
+  MappedTexel most;
   for (const FormSample& sample : samples) {
     const MappedTexel found = evaluate_mapping(form, sample.source.alpha, sample.source.specular);
     most.alpha = std::max(most.alpha, std::fabs(found.alpha - sample.target.alpha));
@@ -73,10 +73,10 @@ double largest(const std::vector<FormSample>& samples, const std::optional<doubl
 
 }  // namespace
 
-Lowered lower(const Fit& fit, double tolerance) {
+ConverterData lower(const Fit& fit, double tolerance) {
   if (const auto* form = std::get_if<CompactForm>(&fit.mapping)) {
-    const Distance rounding = rounding_of(*form, fit.domain);
-    return {*form, rounding.alpha, rounding.specular};
+    const MappedTexel rounding = rounding_of(*form, fit.domain);
+    return {{}, *form, rounding.alpha, rounding.specular, {}};
   }
   if (!is_proportional(fit.mapping) && fit.domain.specular.min <= 0.0)
     throw Error(ErrorKind::kNumeric,
@@ -86,12 +86,12 @@ Lowered lower(const Fit& fit, double tolerance) {
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = tolerance, specular_within = tolerance * unit;
-  Lowered best;
+  ConverterData best;
   double nearest = INFINITY, proven = INFINITY;  // both are relative to the tolerances
   for (const FormShape& shape : lowering_shapes(fit.mapping)) {
     const CompactForm form = fit_form(samples, {}, fit.domain, shape);
-    const Distance sampled = sampled_distance(form, samples), rounding = rounding_of(form, fit.domain);
-    const auto relative = [&](const Distance& distance) {
+    const MappedTexel sampled = sampled_distance(form, samples), rounding = rounding_of(form, fit.domain);
+    const auto relative = [&](const MappedTexel& distance) {
       return std::max((distance.alpha + rounding.alpha) / alpha_within,
                       (distance.specular + rounding.specular) / specular_within);
     };
@@ -99,12 +99,14 @@ Lowered lower(const Fit& fit, double tolerance) {
     if (!(least <= std::max(1.0, 0.7 * nearest)) || least >= proven) continue;
     nearest = least;
     const double target = std::clamp(1.3 * least, 1.0, kLoosest);
-    const Distance bound = proven_distance(
+    const MappedTexel bound = proven_distance(
         fit.mapping, form, fit.domain,
         {target * alpha_within - rounding.alpha, target * specular_within - rounding.specular}, kBoxes);
     if (relative(bound) >= proven) continue;
     proven = relative(bound);
-    best = {limited(form, fit, samples), bound.alpha + rounding.alpha, bound.specular + rounding.specular};
+    best.form = limited(form, fit, samples);
+    best.alpha_bound = bound.alpha + rounding.alpha;
+    best.specular_bound = bound.specular + rounding.specular;
     if (proven <= 1.0) return best;
   }
   if (proven <= kLoosest) return best;

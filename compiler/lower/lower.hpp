@@ -10,15 +10,11 @@ namespace remap {
 // and relative to the largest target specular over the domain.
 inline constexpr double kLoweringTolerance = 1e-3;
 
-struct Lowered {
-  CompactForm form;
-  // These bounds are proven for |form in float arithmetic - mapping| over the whole domain, below the limits.
-  double alpha_bound = 0.0, specular_bound = 0.0;
-};
-
 // Returns the form with the fewest terms that meets the tolerance, or that comes closest. A compact fit stays
-// unchanged. Throws kNumeric if no form is proven within ten times the tolerance.
-Lowered lower(const Fit& fit, double tolerance = kLoweringTolerance);
+// unchanged. The bounds are proven for |form in float arithmetic - mapping| over the whole domain, below the
+// limits. The result has no other members yet. Throws kNumeric if no form is proven within ten times the
+// tolerance.
+ConverterData lower(const Fit& fit, double tolerance = kLoweringTolerance);
 
 // Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit is
 // unchanged.

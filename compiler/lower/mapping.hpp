@@ -91,7 +91,7 @@ bool alpha_depends_on_specular(const MappingKind& mapping);
 // Returns true if target specular is a function of alpha times specular. Channels are then independent.
 bool is_proportional(const MappingKind& mapping);
 
-// A MappedTexel holds the two parameters of a texel with one channel.
+// A MappedTexel holds the two parameters of a texel with one channel, or the distance of two such texels.
 struct MappedTexel {
   double alpha = 0.0;
   double specular = 0.0;

@@ -114,8 +114,8 @@ std::size_t operations(const FactorTerms& factor) {
 
 }  // namespace
 
-Distance proven_distance(const MappingKind& mapping, const CompactForm& form, const Domain& domain,
-                         const Distance& target, std::size_t box_budget) {
+MappedTexel proven_distance(const MappingKind& mapping, const CompactForm& form, const Domain& domain,
+                            const MappedTexel& target, std::size_t box_budget) {
   return std::visit(
       [&](const auto& kind) {
         const auto alpha = [&](const TexelTaylor& a, const TexelTaylor& s) {
@@ -124,13 +124,13 @@ Distance proven_distance(const MappingKind& mapping, const CompactForm& form, co
         const auto specular = [&](const TexelTaylor& a, const TexelTaylor& s) {
           return target_specular(kind, a, s) - target_specular(form, a, s);
         };
-        return Distance{proven_bound(alpha, domain, target.alpha, box_budget),
-                        proven_bound(specular, domain, target.specular, box_budget)};
+        return MappedTexel{proven_bound(alpha, domain, target.alpha, box_budget),
+                           proven_bound(specular, domain, target.specular, box_budget)};
       },
       mapping);
 }
 
-Distance rounding_of(const CompactForm& form, const Domain& domain) {
+MappedTexel rounding_of(const CompactForm& form, const Domain& domain) {
   const double alpha = domain.alpha.max, specular = domain.specular.max;
   const double t = specular / (specular + static_cast<double>(form.pole));
   // The error is relative to the sum of the magnitudes. It covers the sum, the quotient, and then either
@@ -144,7 +144,7 @@ Distance rounding_of(const CompactForm& form, const Domain& domain) {
                of_specular = relative(operations(form.specular) + kOthers), of_hinge = relative(kHinge);
   const double width = alpha * magnitude(form.alpha, alpha, t),
                light = specular * magnitude(form.specular, alpha, t);
-  Distance distance{of_alpha * width, of_specular * light};
+  MappedTexel distance{of_alpha * width, of_specular * light};
   const auto size = [](float number) { return std::fabs(static_cast<double>(number)); };
   if (form.specular_limit) {
     // x / (1 + bend x) changes by no more than x does, and is at most 1 / bend.

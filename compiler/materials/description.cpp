@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -27,12 +28,6 @@ constexpr NamedValues<std::size_t, 9> kBuiltIns = {{{2, "min"},
                                                     {2, "channel"},
                                                     {1, "color"}}};
 
-// A SourceLine is a statement of a file, with the comment above it.
-struct SourceLine {
-  std::size_t number = 0;
-  std::string comment, text;
-};
-
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return "";
@@ -43,29 +38,40 @@ bool begins_with_operator(const std::string& words) {
   return std::string_view("+-*/?:").find(words.front()) != std::string_view::npos;
 }
 
-// Returns the statements of a file. If a line begins with an operator, it continues the line before it. If a
-// blank line follows the first comment, `head` receives this comment.
-std::vector<SourceLine> lines_of(std::string_view text, std::string* head) {
-  std::vector<SourceLine> lines;
+// Calls `parse` with each statement of a file and the comment above it. If a line begins with an operator, it
+// continues the statement before it. If a blank line follows the first comment, `head` receives this comment.
+// If `parse` throws, adds the file and the line to the message.
+void for_each_statement(std::string_view text, const std::string& name, std::string* head,
+                        const auto& parse) {
   std::istringstream stream{std::string(text)};
-  std::string line, comment;
-  std::size_t number = 0;
-  while (std::getline(stream, line)) {
+  std::string statement, comment, next_comment;
+  std::size_t first_line = 0, number = 0;
+  const auto finish = [&] {
+    if (first_line == 0) return;
+    try {
+      parse(statement, comment);
+    } catch (const Error& error) {
+      throw input_error(name + ":" + std::to_string(first_line) + ": " + error.what());
+    }
+  };
+  for (std::string line; std::getline(stream, line);) {
     ++number;
     const std::string words = trimmed(line);
     if (words.starts_with("#")) {
-      comment += (comment.empty() ? "" : "\n") + trimmed(words.substr(1));
+      next_comment += (next_comment.empty() ? "" : "\n") + trimmed(words.substr(1));
     } else if (words.empty()) {
-      if (head && lines.empty() && head->empty()) *head = comment;
-      comment.clear();
-    } else if (!lines.empty() && begins_with_operator(words)) {
-      lines.back().text += " " + words;
+      if (head && first_line == 0 && head->empty()) *head = next_comment;
+      next_comment.clear();
+    } else if (first_line != 0 && begins_with_operator(words)) {
+      statement += " " + words;
     } else {
-      lines.push_back({number, comment, words});
-      comment.clear();
+      finish();
+      first_line = number;
+      statement = words;
+      comment = std::exchange(next_comment, "");
     }
   }
-  return lines;
+  finish();
 }
 
 class ExpressionParser {
@@ -198,16 +204,6 @@ class ExpressionParser {
   std::size_t at_ = 0;
 };
 
-// Calls `parse(line)`. If this throws, adds the file and the line to the message.
-template <typename Parse>
-void at_line(const std::string& name, const SourceLine& line, const Parse& parse) {
-  try {
-    parse();
-  } catch (const Error& error) {
-    throw input_error(name + ":" + std::to_string(line.number) + ": " + error.what());
-  }
-}
-
 // Returns the expression with every call of a function replaced by its body.
 Expression inlined(const Expression& expression, const std::vector<FormulaFunction>& functions) {
   Expression result = expression;
@@ -328,43 +324,41 @@ std::vector<std::string> Translation::ignored() const {
 
 std::vector<MaterialModel> parse_models(std::string_view text, const std::string& name) {
   std::vector<MaterialModel> models;
-  for (const SourceLine& line : lines_of(text, nullptr))
-    at_line(name, line, [&] {
-      if (line.text.starts_with("model ")) {
-        const std::string words = trimmed(line.text.substr(6));
-        const auto blank = words.find(' ');
-        if (blank == std::string::npos) throw input_error("the title of the model is missing");
-        models.push_back({words.substr(0, blank), trimmed(words.substr(blank)), {}});
-      } else if (models.empty()) {
-        throw input_error("an input stands before the first model");
-      } else {
-        models.back().inputs.push_back(input_of(line.text));
-      }
-    });
+  for_each_statement(text, name, nullptr, [&](const std::string& line, const std::string&) {
+    if (line.starts_with("model ")) {
+      const std::string words = trimmed(line.substr(6));
+      const auto blank = words.find(' ');
+      if (blank == std::string::npos) throw input_error("the title of the model is missing");
+      models.push_back({words.substr(0, blank), trimmed(words.substr(blank)), {}});
+    } else if (models.empty()) {
+      throw input_error("an input stands before the first model");
+    } else {
+      models.back().inputs.push_back(input_of(line));
+    }
+  });
   return models;
 }
 
 std::vector<FormulaFunction> parse_functions(std::string_view text, const std::string& name) {
   std::vector<FormulaFunction> functions;
   std::string head;
-  for (const SourceLine& line : lines_of(text, &head))
-    at_line(name, line, [&] {
-      const auto [left, right] = sides_of(line.text);
-      const auto open = left.find('(');
-      if (open == std::string::npos || !left.ends_with(")"))
-        throw input_error("this is not a function: " + left);
-      FormulaFunction function{trimmed(left.substr(0, open)), {}, {}, line.comment};
-      std::istringstream parameters(left.substr(open + 1, left.size() - open - 2));
-      for (std::string parameter; std::getline(parameters, parameter, ',');)
-        function.parameters.push_back(trimmed(parameter));
-      function.body = ExpressionParser(right, functions).whole();
-      std::vector<std::string> names;
-      collect_names(function.body, names);
-      for (const std::string& used : names)
-        if (std::ranges::find(function.parameters, used) == function.parameters.end())
-          throw input_error("unknown name '" + used + "'");
-      functions.push_back(std::move(function));
-    });
+  for_each_statement(text, name, &head, [&](const std::string& line, const std::string& comment) {
+    const auto [left, right] = sides_of(line);
+    const auto open = left.find('(');
+    if (open == std::string::npos || !left.ends_with(")"))
+      throw input_error("this is not a function: " + left);
+    FormulaFunction function{trimmed(left.substr(0, open)), {}, {}, comment};
+    std::istringstream parameters(left.substr(open + 1, left.size() - open - 2));
+    for (std::string parameter; std::getline(parameters, parameter, ',');)
+      function.parameters.push_back(trimmed(parameter));
+    function.body = ExpressionParser(right, functions).whole();
+    std::vector<std::string> names;
+    collect_names(function.body, names);
+    for (const std::string& used : names)
+      if (std::ranges::find(function.parameters, used) == function.parameters.end())
+        throw input_error("unknown name '" + used + "'");
+    functions.push_back(std::move(function));
+  });
   return functions;
 }
 
@@ -373,23 +367,25 @@ Translation parse_translation(std::string_view text, const std::string& name, co
   Translation translation{&from, &to, "", "", {}};
   std::map<std::string, ValueType> names;
   for (const MaterialInput& input : from.inputs) names["source." + input.name] = input.type;
-  for (const SourceLine& line : lines_of(text, &translation.comment))
-    at_line(name, line, [&] {
-      const auto [left, right] = sides_of(line.text);
-      Expression value = ExpressionParser(right, functions).whole();
-      ValueType type = type_of(inlined(value, functions), names);
-      if (left.starts_with("target.")) {
-        const MaterialInput* input = to.find(left.substr(7));
-        if (!input) throw input_error(to.id + " does not have the input '" + left.substr(7) + "'");
-        if (type == ValueType::kColor && input->type != ValueType::kColor)
-          throw input_error(left + " is a number, but the value is a color");
-        type = input->type;
-      } else if (from.find(left) || to.find(left)) {
-        throw input_error("'" + left + "' is the name of an input (choose another)");
-      }
-      if (!names.emplace(left, type).second) throw input_error("'" + left + "' has a value already");
-      translation.lines.push_back({left, type, std::move(value), line.comment});
-    });
+  for_each_statement(text, name, &translation.comment,
+                     [&](const std::string& line, const std::string& comment) {
+                       const auto [left, right] = sides_of(line);
+                       Expression value = ExpressionParser(right, functions).whole();
+                       ValueType type = type_of(inlined(value, functions), names);
+                       if (left.starts_with("target.")) {
+                         const MaterialInput* input = to.find(left.substr(7));
+                         if (!input)
+                           throw input_error(to.id + " does not have the input '" + left.substr(7) + "'");
+                         if (type == ValueType::kColor && input->type != ValueType::kColor)
+                           throw input_error(left + " is a number, but the value is a color");
+                         type = input->type;
+                       } else if (from.find(left) || to.find(left)) {
+                         throw input_error("'" + left + "' is the name of an input (choose another)");
+                       }
+                       if (!names.emplace(left, type).second)
+                         throw input_error("'" + left + "' has a value already");
+                       translation.lines.push_back({left, type, std::move(value), comment});
+                     });
   return translation;
 }
 

@@ -1,6 +1,7 @@
 #include "measure/family_probe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -50,7 +51,7 @@ class FamilyProbe {
         model_(model),
         axis_{model.parameter(ParameterRole::kSpecular).range, coordinate, {}, {}},
         // The widest comes first. Its highlight covers all angles, so it is the most likely to fail a check.
-        widths_{{alphas.max, {}}, {std::sqrt(alphas.min * alphas.max), {}}, {alphas.min, {}}} {}
+        alphas_{alphas.max, std::sqrt(alphas.min * alphas.max), alphas.min} {}
 
   // Returns true if polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
   bool is_polynomial(std::size_t degree) {
@@ -90,16 +91,13 @@ class FamilyProbe {
   }
 
  private:
-  struct Width {
-    double alpha;
-    std::map<std::size_t, Radiances> pictures;  // keyed by the index of the point
-  };
-
-  const Radiances& picture(Width& width, std::size_t point) const {
-    const auto known = width.pictures.find(point);
-    if (known != width.pictures.end()) return known->second;
-    const RoleValues role_values{width.alpha, axis_.specular(chebyshev_point(point)), 0.0};
-    return width.pictures.emplace(point, picture_taker_.take(model_, role_values)).first->second;
+  // Returns the picture at one of alphas_ and a Chebyshev point, both by index.
+  const Radiances& picture(std::size_t width, std::size_t point) {
+    const auto [known, is_new] = pictures_[width].try_emplace(point);
+    if (is_new)
+      known->second = picture_taker_.take(
+          model_, RoleValues{alphas_[width], axis_.specular(chebyshev_point(point)), 0.0});
+    return known->second;
   }
 
   // Returns the family of the pictures at `points`. The picture at node i of the polynomial is the sum over k
@@ -125,7 +123,7 @@ class FamilyProbe {
   // `degree` has.
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
-    return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
+    for (std::size_t width = 0; width < alphas_.size(); ++width) {
       std::vector<Radiances> pictures;
       for (const std::size_t point : points) pictures.push_back(picture(width, point));
       const Radiances& full = picture(width, kFinest);
@@ -137,15 +135,15 @@ class FamilyProbe {
         for (std::size_t i = 0; i < found.size(); ++i)
           if (!(std::fabs(static_cast<double>(expected[i]) - found[i]) <= allowed)) return false;
       }
-      return true;
-    });
+    }
+    return true;
   }
 
   // Returns sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are
   // divided by the brightest pixel of their width, so that all widths have the same weight.
   Matrix gram_matrix(std::size_t degree) {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
-    for (Width& width : widths_) {
+    for (std::size_t width = 0; width < alphas_.size(); ++width) {
       const Radiances& full = picture(width, kFinest);
       const double brightest = *std::max_element(full.begin(), full.end());
       for (std::size_t i = 0; i <= degree; ++i)
@@ -160,7 +158,9 @@ class FamilyProbe {
   const PictureTaker& picture_taker_;
   const ModelDescription& model_;
   SpecularFamily axis_;  // only its range and coordinate_kind are used
-  std::vector<Width> widths_;
+  std::array<double, 3> alphas_;
+  // The pictures of each width are keyed by the index of the point.
+  std::array<std::map<std::size_t, Radiances>, 3> pictures_;
 };
 
 }  // namespace

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ceres/ceres.h>
-
+#include "measure/function_cost.hpp"
 #include "measure/picture_sums.hpp"
 #include "remap/error.hpp"
 
@@ -77,77 +76,37 @@ double pixel_power(PictureWeights weights, const std::vector<float>& picture) {
 
 }  // namespace
 
-// A PictureCost reduces the residuals of a whole picture to a few numbers. A trust-region step depends only
-// on J^T J, J^T r and r^T r. The triangle R of [J r] = Q R gives the same products, so Ceres gets the columns
-// of R as Jacobian and residual.
-class JointMatcher::PictureCost final : public ceres::CostFunction {
- public:
-  PictureCost(const JointMatcher& matcher, const RoleValues& guess)
-      : matcher_(matcher), guess_(guess), count_(matcher.unknowns_.size()) {
-    set_num_residuals(static_cast<int>(count_ + 1));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(count_));
-  }
-
-  bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
-    const Matrix& r = triangle(values[0]);
-    for (std::size_t row = 0; row <= count_; ++row) {
-      residuals[row] = r[row][count_];
-      if (!std::isfinite(residuals[row])) return false;
-      for (std::size_t column = 0; jacobians != nullptr && jacobians[0] != nullptr && column < count_;
-           ++column)
-        jacobians[0][row * count_ + column] = r[row][column];
-    }
-    return true;
-  }
-
- private:
-  // Ceres first evaluates the residuals of a step. If it accepts the step, it evaluates the Jacobian at the
-  // same point.
-  const Matrix& triangle(const double* values) const {
-    const bool known = !last_values_.empty() && std::equal(last_values_.begin(), last_values_.end(), values);
-    if (!known) last_triangle_ = cholesky(gram(values));
-    last_values_.assign(values, values + count_);
-    return last_triangle_;
-  }
-
-  // Returns inner products of the tangents and, in the last row and column, of picture - source. They are
-  // summed over all channels and divided by the power of the source.
-  Matrix gram(const double* values) const {
-    Matrix products = square(count_ + 1);
-    const std::vector<RoleValues> points = matcher_.points_of(values, guess_);
-    std::vector<PictureTangents> pictures = matcher_.target_.at(points, matcher_.wanted_);
-    for (std::size_t c = 0; c < points.size(); ++c) {
-      const JointChannel& channel = matcher_.channels_[c];
-      PictureTangents& tangents = pictures[c];
-      for (std::size_t i = 0; i < channel.picture.size(); ++i) tangents.picture[i] -= channel.picture[i];
-      std::vector<const float*> columns(count_ + 1, nullptr);  // null for the unknowns of other channels
-      for (std::size_t u = 0; u < count_; ++u)
-        if (matcher_.unknowns_[u].concerns(c))
-          columns[u] = tangents.by[matcher_.unknowns_[u].coordinate].data();
-      columns[count_] = tangents.picture.data();
-      for (std::size_t i = 0; i <= count_; ++i)
-        for (std::size_t j = i; j <= count_; ++j)
-          if (columns[i] != nullptr && columns[j] != nullptr)
-            products[i][j] += weighted_product(channel.weights.squared.data(), columns[i], columns[j],
-                                               channel.picture.size()) /
-                              matcher_.power_;
-    }
-    return products;
-  }
-
-  const JointMatcher& matcher_;
-  const RoleValues& guess_;
-  std::size_t count_;
-  mutable std::vector<double> last_values_;
-  mutable Matrix last_triangle_;
-};
-
 JointMatcher::JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels,
                            DiffuseSearch diffuse)
     : target_(target), channels_(std::move(channels)), diffuse_(diffuse), unknowns_(unknowns()) {
   wanted_.resize(target.coordinates().size());
   for (const Unknown& unknown : unknowns_) wanted_[unknown.coordinate] = true;
   for (const JointChannel& channel : channels_) power_ += power_of(channel.weights, channel.picture);
+}
+
+// Returns inner products of the tangents and, in the last row and column, of picture - source. They are
+// summed over all channels and divided by the power of the source.
+std::vector<std::vector<double>> JointMatcher::gram(const double* values, const RoleValues& guess) const {
+  const std::size_t count = unknowns_.size();
+  Matrix products = square(count + 1);
+  const std::vector<RoleValues> points = points_of(values, guess);
+  std::vector<PictureTangents> pictures = target_.at(points, wanted_);
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const JointChannel& channel = channels_[c];
+    PictureTangents& tangents = pictures[c];
+    for (std::size_t i = 0; i < channel.picture.size(); ++i) tangents.picture[i] -= channel.picture[i];
+    std::vector<const float*> columns(count + 1, nullptr);  // null for the unknowns of other channels
+    for (std::size_t u = 0; u < count; ++u)
+      if (unknowns_[u].concerns(c)) columns[u] = tangents.by[unknowns_[u].coordinate].data();
+    columns[count] = tangents.picture.data();
+    for (std::size_t i = 0; i <= count; ++i)
+      for (std::size_t j = i; j <= count; ++j)
+        if (columns[i] != nullptr && columns[j] != nullptr)
+          products[i][j] += weighted_product(channel.weights.squared.data(), columns[i], columns[j],
+                                             channel.picture.size()) /
+                            power_;
+  }
+  return products;
 }
 
 std::vector<JointMatcher::Unknown> JointMatcher::unknowns() const {
@@ -205,7 +164,26 @@ Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
     const Range& range = target_.coordinates()[unknown.coordinate].range;
     values.push_back(std::clamp(target_.value(guess, unknown.coordinate), range.min, range.max));
   }
-  problem.AddResidualBlock(new PictureCost(*this, guess), nullptr, values.data());
+  // The residuals of a whole picture are reduced to a few numbers. A trust-region step depends only on J^T J,
+  // J^T r and r^T r. The triangle R of [J r] = Q R gives the same products, so Ceres gets the columns of R as
+  // Jacobian and residual.
+  const std::size_t count = unknowns_.size();
+  std::vector<double> known;  // where `triangle` was computed
+  Matrix triangle;
+  const auto evaluate = [&](const double* at, double* residuals, double* jacobian) {
+    // Ceres first evaluates the residuals of a step. If it accepts the step, it evaluates the Jacobian at the
+    // same point.
+    if (known.empty() || !std::equal(known.begin(), known.end(), at)) triangle = cholesky(gram(at, guess));
+    known.assign(at, at + count);
+    for (std::size_t row = 0; row <= count; ++row) {
+      residuals[row] = triangle[row][count];
+      if (!std::isfinite(residuals[row])) return false;
+      for (std::size_t column = 0; jacobian != nullptr && column < count; ++column)
+        jacobian[row * count + column] = triangle[row][column];
+    }
+    return true;
+  };
+  problem.AddResidualBlock(new FunctionCost(count + 1, count, evaluate), nullptr, values.data());
   for (std::size_t u = 0; u < values.size(); ++u) {
     const Range& range = target_.coordinates()[unknowns_[u].coordinate].range;
     problem.SetParameterLowerBound(values.data(), static_cast<int>(u), range.min);

@@ -2,7 +2,7 @@
 // non-linear least squares over the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three
 // stages). It is also used for targets that are not affine in specular. With several color channels,
 // parameters without color (such as width) are shared, and each channel has its own values of the others. In
-// a sweep, only this file uses Ceres.
+// a sweep, only this match uses Ceres.
 #pragma once
 
 #include <algorithm>
@@ -66,10 +66,10 @@ class JointMatcher {
 
     bool concerns(std::size_t c) const { return shared || channel == c; }
   };
-  class PictureCost;
 
   std::vector<Unknown> unknowns() const;
   std::vector<RoleValues> points_of(const double* values, const RoleValues& guess) const;
+  std::vector<std::vector<double>> gram(const double* values, const RoleValues& guess) const;
   Match search(const RoleValues& guess, double tolerance) const;
   RowStatus judge(const Match& match, const std::vector<Match>& rivals) const;
   bool apart(const Match& a, const Match& b) const;

@@ -116,13 +116,14 @@ Matcher::Polynomial Matcher::loss(const Polynomial& power, const std::vector<Pol
   return result;
 }
 
-PolynomialMinimum Matcher::least(const Polynomial& loss) const {
+double Matcher::best_coordinate(const Polynomial& loss) const {
   return polynomial_minima(loss, bank_.family().coordinate_range()).front();
 }
 
 double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
   const Products& p = products(node);
-  return least(loss(p.power, p.cross, coefficients)).value;
+  const Polynomial total = loss(p.power, p.cross, coefficients);
+  return polynomial_value(total, best_coordinate(total));
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
@@ -161,7 +162,7 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   const auto derivative = [&](double x) {
     const LagrangeBasis basis(logs, x);
     return polynomial_value(interpolated(losses, basis.derivative),
-                            least(interpolated(losses, basis.value)).at);
+                            best_coordinate(interpolated(losses, basis.value)));
   };
 
   const bool at_edge = node == 0 || node + 1 == bank_.size();
@@ -188,19 +189,19 @@ Match Matcher::match_at(double x, const Polynomial& loss, const Polynomial& loss
   const Range range = family.coordinate_range();
   const double power = quadratic_form(power_, coefficients);
   const double power_of_means = quadratic_form(power_of_means_, coefficients);
-  const auto error = [&](const PolynomialMinimum& minimum) {
-    return std::sqrt(std::max(0.0, power + minimum.value) / power);
+  const auto error = [&](double coordinate) {
+    return std::sqrt(std::max(0.0, power + polynomial_value(loss, coordinate)) / power);
   };
-  const std::vector<PolynomialMinimum> minima = polynomial_minima(loss, range);
-  const PolynomialMinimum& best = minima.front();
-  const double of_means = power_of_means + polynomial_value(loss_of_means, best.at);
-  const double of_pixels = std::max(0.0, power + best.value - of_means);
-  Match match{{{std::exp(x), family.specular(best.at), 0.0}},
+  const std::vector<double> minima = polynomial_minima(loss, range);
+  const double best = minima.front();
+  const double of_means = power_of_means + polynomial_value(loss_of_means, best);
+  const double of_pixels = std::max(0.0, power + polynomial_value(loss, best) - of_means);
+  Match match{{{std::exp(x), family.specular(best), 0.0}},
               error(best),
               std::sqrt(of_pixels / (power - power_of_means))};
-  if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
+  if (best <= range.min || best >= range.max) match.status = RowStatus::kClamped;
   for (std::size_t i = 1; i < minima.size(); ++i) {
-    const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);
+    const bool apart = std::fabs(minima[i] - best) > kRivalDistance * (range.max - range.min);
     if (apart && error(minima[i]) < kRivalError * match.error + kSameError)
       match.status = RowStatus::kUnstable;
   }

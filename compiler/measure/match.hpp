@@ -49,7 +49,7 @@ class Matcher {
   const Products& products(std::size_t node);
   static Polynomial loss(const Polynomial& power, const std::vector<Polynomial>& cross,
                          const std::vector<double>& coefficients);
-  PolynomialMinimum least(const Polynomial& loss) const;
+  double best_coordinate(const Polynomial& loss) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
   std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
   std::size_t descend(std::size_t node, const std::vector<double>& coefficients);

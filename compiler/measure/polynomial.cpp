@@ -75,21 +75,20 @@ std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::s
   return basis;
 }
 
-std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coefficients,
-                                                 const Range& range) {
-  const auto minimum = [&](double x) { return PolynomialMinimum{x, polynomial_value(coefficients, x)}; };
+std::vector<double> polynomial_minima(const std::vector<double>& coefficients, const Range& range) {
   if (coefficients.size() == 3 && coefficients[2] > 0.0)
-    return {minimum(std::clamp(-coefficients[1] / (2.0 * coefficients[2]), range.min, range.max))};
-  std::vector<PolynomialMinimum> points = {minimum(range.min)};
-  for (const double root : roots(polynomial_derivative(coefficients), range)) points.push_back(minimum(root));
-  points.push_back(minimum(range.max));
-  std::vector<PolynomialMinimum> minima;
+    return {std::clamp(-coefficients[1] / (2.0 * coefficients[2]), range.min, range.max)};
+  std::vector<double> points = roots(polynomial_derivative(coefficients), range);
+  points.insert(points.begin(), range.min);
+  points.push_back(range.max);
+  const auto value = [&](double x) { return polynomial_value(coefficients, x); };
+  std::vector<double> minima;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool left = i == 0 || points[i].value <= points[i - 1].value;
-    const bool right = i + 1 == points.size() || points[i].value <= points[i + 1].value;
+    const bool left = i == 0 || value(points[i]) <= value(points[i - 1]);
+    const bool right = i + 1 == points.size() || value(points[i]) <= value(points[i + 1]);
     if (left && right) minima.push_back(points[i]);
   }
-  std::ranges::stable_sort(minima, {}, &PolynomialMinimum::value);
+  std::ranges::stable_sort(minima, {}, value);
   return minima;
 }
 

@@ -18,14 +18,8 @@ std::vector<double> polynomial_product(const std::vector<double>& a, const std::
 // Returns the Lagrange basis polynomial on `nodes` that is 1 at node `k` and 0 at the others.
 std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::size_t k);
 
-// A PolynomialMinimum is a local minimum of a polynomial within a range.
-struct PolynomialMinimum {
-  double at = 0.0;
-  double value = 0.0;
-};
-
-// Returns all local minima over `range`, including its ends. There is at least one, and the smallest value
-// comes first. If the vertex of a parabola is out of the range, the closest end is used.
-std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coefficients, const Range& range);
+// Returns the places of all local minima over `range`, including its ends. There is at least one, and the
+// smallest value comes first. If the vertex of a parabola is out of the range, the closest end is used.
+std::vector<double> polynomial_minima(const std::vector<double>& coefficients, const Range& range);
 
 }  // namespace remap

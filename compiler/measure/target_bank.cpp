@@ -58,20 +58,21 @@ TargetBank::TargetBank(const PictureTaker& picture_taker, const ProbedModel& tar
       target_(target),
       family_(target.family().value()),
       log_step_(std::log(ratio)),
-      alphas_(bank_alphas(alphas, ratio, target.model.alpha.min)) {
-  for (std::size_t i = 0; i < alphas_.size(); ++i) slots_.emplace_back();
-}
+      alphas_(bank_alphas(alphas, ratio, target.model.alpha.min)),
+      are_rendered_(alphas_.size()),
+      are_begun_(alphas_.size()),
+      pictures_(alphas_.size()) {}
 
 const std::vector<std::vector<float>>& TargetBank::pictures(std::size_t node) const {
-  Slot& slot = slots_[node];
-  slot.begun = true;
-  std::call_once(slot.once, [&] { slot.pictures = take_family(picture_taker_, target_, alphas_[node]); });
-  return slot.pictures;
+  are_begun_[node] = true;
+  std::call_once(are_rendered_[node],
+                 [&] { pictures_[node] = take_family(picture_taker_, target_, alphas_[node]); });
+  return pictures_[node];
 }
 
 void TargetBank::prepare(std::span<const std::size_t> nodes) const {
   for (const std::size_t node : nodes)
-    if (!slots_[node].begun.exchange(true)) pictures(node);
+    if (!are_begun_[node].exchange(true)) pictures(node);
 }
 
 TargetGrid::TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const Range& alphas)

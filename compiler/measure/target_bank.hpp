@@ -41,17 +41,15 @@ class TargetBank {
   void prepare(std::span<const std::size_t> nodes) const;
 
  private:
-  struct Slot {
-    std::once_flag once;
-    std::atomic<bool> begun{false};
-    std::vector<std::vector<float>> pictures;
-  };
   const PictureTaker& picture_taker_;
   ProbedModel target_;
   SpecularFamily family_;
   double log_step_;
   std::vector<double> alphas_;
-  mutable std::deque<Slot> slots_;
+  // These have an element for each node.
+  mutable std::deque<std::once_flag> are_rendered_;
+  mutable std::deque<std::atomic<bool>> are_begun_;
+  mutable std::vector<std::vector<std::vector<float>>> pictures_;
 };
 
 // A TargetGrid holds pictures of a target on a coarse grid of widths and speculars. If the target has no

@@ -84,7 +84,7 @@ std::vector<LitSample> lit_samples(const Scene& scene) {
       SurfaceHit hit;
       if (!shape_point(scene.shape, scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &hit))
         continue;
-      const SurfacePoint &p = hit.position, &n = hit.normal;
+      const Vector3 &p = hit.position, &n = hit.normal;
       double lx = light_x - p.x, ly = -p.y, lz = light_z - p.z;
       const double light_distance = std::sqrt(lx * lx + ly * ly + lz * lz);
       lx /= light_distance, ly /= light_distance, lz /= light_distance;

@@ -57,8 +57,10 @@ double squared_noise(const LitPicture& source, const LitPicture& target) {
 }
 
 // Renders all materials of one alpha together and compares them.
-void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
-                   std::span<const Conversion> conversions, EnvironmentsResult* result) {
+std::vector<EnvironmentComparison> compare_alpha(const EnvironmentsOptions& options,
+                                                 const RadiancePyramid& pyramid,
+                                                 std::span<const Conversion> conversions,
+                                                 std::vector<Image>* sheets) {
   std::vector<SphereMaterial> materials;  // holds each material once
   const auto place_of = [&](const SphereMaterial& material) {
     const auto found = std::ranges::find(materials, material);
@@ -77,11 +79,11 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   const SpherePictures pictures = render_spheres(pyramid, materials, options);
   const std::size_t environment_count = options.environments.size();
   std::vector<EnvironmentComparison> comparisons(places.size() * environment_count);
-  const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
+  const bool on_sheet = sheets != nullptr && options.sheet_alpha == conversions.front().alpha;
   if (on_sheet)
-    result->sheets.assign(environment_count, contact_sheet(options.pairs.size(),
-                                                           1 + kMethodCount + (options.least_error ? 1 : 0),
-                                                           options.resolution));
+    sheets->assign(environment_count,
+                   contact_sheet(options.pairs.size(), 1 + kMethodCount + (options.least_error ? 1 : 0),
+                                 options.resolution));
   run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<LitPicture> shots;
     for (std::size_t m = 0; m < materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
@@ -96,14 +98,14 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
           squared_noise(source, target)};
       if (!on_sheet) continue;
       const auto place = [&](std::size_t column, const LitPicture& picture) {
-        place_picture(&result->sheets[e], pictures.resolution(), conversions[i].pair, column,
-                      pictures.pixels(), picture.display.colors);
+        place_picture(&(*sheets)[e], pictures.resolution(), conversions[i].pair, column, pictures.pixels(),
+                      picture.display.colors);
       };
       place(0, source);
       place(1 + static_cast<std::size_t>(conversions[i].method), target);
     }
   });
-  result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
+  return comparisons;
 }
 
 // Adds the best conversions. The search starts from the matches by `natural-2`.
@@ -162,9 +164,10 @@ std::size_t progress_steps(const EnvironmentsOptions& options) {
                                                           (options.least_error ? kLeastErrorResolution : 0));
 }
 
-EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
+std::vector<EnvironmentComparison> study_environments(const EnvironmentsOptions& options,
+                                                      std::vector<Image>* sheets) {
   require_options(options);
-  EnvironmentsResult result;
+  std::vector<EnvironmentComparison> all;
   const std::vector<Conversion> conversions = conversions_of(options);
   const RadiancePyramid pyramid(options.environments);
   for (auto begin = conversions.begin(); begin != conversions.end();) {
@@ -172,17 +175,20 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
         std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
     std::vector<Conversion> at_alpha(begin, end);
     if (options.least_error) add_best(options, pyramid, &at_alpha);
-    compare_alpha(options, pyramid, at_alpha, &result);
+    const std::vector<EnvironmentComparison> compared = compare_alpha(options, pyramid, at_alpha, sheets);
+    all.insert(all.end(), compared.begin(), compared.end());
     begin = end;
   }
-  for (Image& sheet : result.sheets) sheet = labelled(sheet, sheet_labels(options));
-  return result;
+  if (sheets != nullptr)
+    for (Image& sheet : *sheets) sheet = labelled(sheet, sheet_labels(options));
+  return all;
 }
 
-std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+std::string environments_csv(const EnvironmentsOptions& options,
+                             const std::vector<EnvironmentComparison>& comparisons) {
   double sum = 0.0;
-  for (const EnvironmentComparison& comparison : result.comparisons) sum += comparison.squared_noise;
-  const double noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
+  for (const EnvironmentComparison& comparison : comparisons) sum += comparison.squared_noise;
+  const double noise = 100.0 * std::sqrt(sum / static_cast<double>(comparisons.size()));
   // All environments have the same mean luminance, apart from the rounding of floats.
   const double luminance = std::round(1e6 * mean_luminance(options.environments.front())) / 1e6;
   CsvText csv(
@@ -194,7 +200,7 @@ std::string environments_csv(const EnvironmentsOptions& options, const Environme
        {"diffuse", number_text(options.diffuse)},
        {"mean_luminance", number_text(luminance)},
        {"noise_percent", number_text(rounded_up(noise, 2))}});
-  for (const EnvironmentComparison& comparison : result.comparisons) {
+  for (const EnvironmentComparison& comparison : comparisons) {
     const Conversion& c = comparison.conversion;
     csv.add_row(options.pairs[c.pair].source, options.pairs[c.pair].target, c.alpha, options.specular,
                 options.environments[comparison.environment].name, method_name(c.method), c.target_alpha,

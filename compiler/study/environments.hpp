@@ -26,20 +26,19 @@ struct EnvironmentComparison {
   double squared_noise = 0.0;   // mean square sampling error of the difference, in display values
 };
 
-struct EnvironmentsResult {
-  std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
-  // If `sheet_alpha` is set, these are sheets with labels, one for each environment. A row shows a pair: the
-  // source, then the result of each method. If a method does not apply to the pair, its place is dark.
-  std::vector<Image> sheets;
-};
-
 // Compares every pair, alpha, method and environment. Pairs without a fit have no comparisons of kShipped.
 // Throws kUsage for unknown models, numbers out of range, empty lists and repeated environment names. Throws
 // kNumeric if a fit cannot be lowered, and kInterrupted.
-EnvironmentsResult study_environments(const EnvironmentsOptions& options);
+//
+// The comparisons are sorted by alpha, pair, method and environment. With `sheet_alpha`, `sheets` receives
+// sheets with labels, one for each environment. A row shows a pair: the source, then the result of each
+// method. If a method does not apply to the pair, its place is dark.
+std::vector<EnvironmentComparison> study_environments(const EnvironmentsOptions& options,
+                                                      std::vector<Image>* sheets = nullptr);
 
 // Returns a row for each comparison. The comments are the settings and the sampling noise. The noise is the
 // RMS error of the difference between two pictures. Its square adds to the square of an RMSE.
-std::string environments_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result);
+std::string environments_csv(const EnvironmentsOptions& options,
+                             const std::vector<EnvironmentComparison>& comparisons);
 
 }  // namespace remap

@@ -50,11 +50,6 @@ constexpr std::size_t kPixelStep = 4;
 constexpr std::size_t kGrid = 33;
 constexpr int kSections = 14, kNewtonSteps = 4;
 
-// A Strip holds pictures of one channel under one light, at the compared pixels.
-struct Strip {
-  std::vector<float> diffuse, dark, slope, source;
-};
-
 class MetallicSearch {
  public:
   MetallicSearch(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
@@ -64,17 +59,18 @@ class MetallicSearch {
     for (std::size_t light = 0; light < lit.environment_count(); ++light) {
       const BasisPictures& basis = lit.basis(alpha, light);
       for (std::size_t c = 0; c < 3; ++c) {
-        Strip strip;
+        BasisPictures strip;
+        std::vector<float> shown;
         for (std::size_t i = c; i < basis.dark.size(); i += 3 * kPixelStep) {
           strip.diffuse.push_back(basis.diffuse[i]);
           strip.dark.push_back(basis.dark[i]);
           strip.slope.push_back(basis.slope[i]);
-          strip.source.push_back(display_curve()(static_cast<float>(source.diffuse[c]) * basis.diffuse[i] +
-                                                 basis.dark[i] +
-                                                 static_cast<float>(source.f0[c]) * basis.slope[i])
-                                     .first);
+          shown.push_back(display_curve()(static_cast<float>(source.diffuse[c]) * basis.diffuse[i] +
+                                          basis.dark[i] + static_cast<float>(source.f0[c]) * basis.slope[i])
+                              .first);
         }
         strips_.push_back(std::move(strip));
+        sources_.push_back(std::move(shown));
       }
     }
   }
@@ -94,18 +90,20 @@ class MetallicSearch {
  private:
   // Returns the sum of squared errors over the pixels of a strip. Adds its derivatives to the sums for
   // Newton's method.
-  double squared_error(const Strip& strip, double metallic, double albedo, double* slope_sum,
+  double squared_error(std::size_t index, double metallic, double albedo, double* slope_sum,
                        double* bend_sum) const {
+    const BasisPictures& strip = strips_[index];
+    const std::vector<float>& source = sources_[index];
     const double n = 1.0 - metallic;
     const auto by_diffuse = static_cast<float>(reflection_.diffuse_of_albedo * n);
     const auto by_slope = static_cast<float>(metallic);
     const auto base = static_cast<float>(reflection_.dielectric_f0 * n), a = static_cast<float>(albedo);
     const DisplayCurve& curve = display_curve();
     double square = 0.0;
-    for (std::size_t i = 0; i < strip.source.size(); ++i) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
       const float growth = by_diffuse * strip.diffuse[i] + by_slope * strip.slope[i];
       const auto [value, slope] = curve(strip.dark[i] + base * strip.slope[i] + a * growth);
-      const auto error = static_cast<double>(value - strip.source[i]);
+      const auto error = static_cast<double>(value - source[i]);
       const auto change = static_cast<double>(slope * growth);
       square += error * error;
       *slope_sum += error * change;
@@ -128,9 +126,8 @@ class MetallicSearch {
         double square = 0.0;
         std::array<double, 3> light_slope{}, light_bend{};
         for (std::size_t c = 0; c < 3; ++c)
-          square +=
-              squared_error(strips_[3 * light + c], metallic, albedo[c], &light_slope[c], &light_bend[c]);
-        const double count = 3.0 * static_cast<double>(strips_[3 * light].source.size());
+          square += squared_error(3 * light + c, metallic, albedo[c], &light_slope[c], &light_bend[c]);
+        const double count = 3.0 * static_cast<double>(sources_[3 * light].size());
         const double rmse = std::sqrt(square / count);
         mean += rmse / static_cast<double>(lights);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -151,7 +148,10 @@ class MetallicSearch {
 
   MetallicReflection reflection_;
   Rgb guess_;
-  std::vector<Strip> strips_;  // three channels for each light
+  // These are pictures at the compared pixels, of three channels for each light. The source's have display
+  // values.
+  std::vector<BasisPictures> strips_;
+  std::vector<std::vector<float>> sources_;
   double least_ = 1e300;
 };
 

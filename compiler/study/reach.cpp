@@ -104,8 +104,8 @@ class Comparison {
         add((j == k ? 1.0 : 2.0) * product(pictures[j], pictures[k]),
             polynomial_product(family.weights[j], family.weights[k]));
     }
-    const PolynomialMinimum least = polynomial_minima(loss, family.coordinate_range()).front();
-    return {family.specular(least.at), relative(least.value)};
+    const double least = polynomial_minima(loss, family.coordinate_range()).front();
+    return {family.specular(least), relative(polynomial_value(loss, least))};
   }
   double error(const std::vector<float>& target) const {
     std::vector<float> difference(target.size());

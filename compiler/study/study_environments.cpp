@@ -55,9 +55,12 @@ EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
 
 void run(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = study_options(command);
-  const EnvironmentsResult result = run_study("environments", options, command.shared, study_environments);
-  write_results(command.shared, "environments", environments_csv(options, result));
-  write_sheets(command.shared, "spheres", options.environments, result.sheets);
+  std::vector<Image> sheets;
+  const std::vector<EnvironmentComparison> comparisons =
+      run_study("environments", options, command.shared,
+                [&](const EnvironmentsOptions& study) { return study_environments(study, &sheets); });
+  write_results(command.shared, "environments", environments_csv(options, comparisons));
+  write_sheets(command.shared, "spheres", options.environments, sheets);
 }
 
 void add_options(Command& app, EnvironmentsCommand& command) {

@@ -37,7 +37,7 @@ std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem:
   for (Fit& fit : load_fits(folder)) {
     const bool is_asked_for = std::ranges::find(command.ids, fit.id) != command.ids.end();
     const bool is_compared =
-        is_builtin(fit.source.model) && is_builtin(fit.target.model) && fit.image_similarity.has_value();
+        is_builtin(fit.source.model) && is_builtin(fit.target.model) && fit.image_error.has_value();
     if (command.ids.empty() ? is_compared : is_asked_for) chosen.push_back(std::move(fit));
   }
   if (chosen.empty() || chosen.size() < command.ids.size())

@@ -29,15 +29,18 @@ void run(const WorkflowsCommand& command) {
   if (const auto folder = fit_folder_of(command.shared); !folder.empty())
     for (const WorkflowFit& fit : load_fit_folder(folder).workflows)
       if (is_learned(fit.conversion.formula)) options.learned.push_back(fit);
-  options.sheets = command.shared.pictures;
-  const WorkflowsResult result = run_study("workflows", options, command.shared, study_workflows);
-  write_results(command.shared, "workflows", workflows_csv(options, result));
+  std::vector<Image> sheets;
+  const std::vector<WorkflowComparison> comparisons =
+      run_study("workflows", options, command.shared, [&](const WorkflowsOptions& study) {
+        return study_workflows(study, command.shared.pictures ? &sheets : nullptr);
+      });
+  write_results(command.shared, "workflows", workflows_csv(options, comparisons));
   if (command.shared.folder.empty()) return;
   const std::vector<RoundTripErrors> trips =
       study_round_trips(options.learned, command.family_count, command.seed, options.jobs);
   write_results(command.shared, "workflows_round_trips",
                 round_trips_csv(trips, command.family_count, command.seed));
-  write_sheets(command.shared, "workflows", options.environments, result.sheets);
+  write_sheets(command.shared, "workflows", options.environments, sheets);
 }
 
 }  // namespace

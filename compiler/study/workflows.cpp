@@ -298,17 +298,18 @@ void read_materials(const std::string& text, const std::string& name, WorkflowsO
   }
 }
 
-WorkflowsResult study_workflows(const WorkflowsOptions& options) {
+std::vector<WorkflowComparison> study_workflows(const WorkflowsOptions& options, std::vector<Image>* sheets) {
   require_options(options);
   const LitReflectances lit(options.environments, options.alphas, options);
-  WorkflowsResult result;
+  std::vector<WorkflowComparison> comparisons;
   for (const DiffuseConvention diffuse : {DiffuseConvention::kPlain, DiffuseConvention::kScaled})
-    result.comparisons.push_back(comparison_of(options, lit, diffuse));
-  if (options.sheets) result.sheets = sheets_of(options, lit, result.comparisons.front());
-  return result;
+    comparisons.push_back(comparison_of(options, lit, diffuse));
+  if (sheets != nullptr) *sheets = sheets_of(options, lit, comparisons.front());
+  return comparisons;
 }
 
-std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+std::string workflows_csv(const WorkflowsOptions& options,
+                          const std::vector<WorkflowComparison>& comparisons) {
   CsvText csv(
       "convention,material,group,alpha,diffuse_r,diffuse_g,diffuse_b,f0_r,f0_g,f0_b,method,base_color_r,"
       "base_color_g,base_color_b,metallic,light,rmse_percent,ssim",
@@ -317,7 +318,7 @@ std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult
        {"samples", std::to_string(options.samples)},
        {"environments", environment_names(options.environments)},
        {"alphas", listed(options.alphas)}});
-  for (const WorkflowComparison& comparison : result.comparisons)
+  for (const WorkflowComparison& comparison : comparisons)
     for (std::size_t i = 0; i < options.materials.size(); ++i)
       for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
         const StudyMaterial& material = options.materials[i];

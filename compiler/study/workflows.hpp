@@ -41,7 +41,6 @@ struct WorkflowsOptions : SphereSampling {
   std::vector<double> alphas;
   std::vector<Environment> environments;  // with different names and equal mean luminance
   std::vector<WorkflowFit> learned;
-  bool sheets = false;  // draw contact sheets
 };
 std::size_t progress_steps(const WorkflowsOptions& options);
 
@@ -68,21 +67,20 @@ struct WorkflowComparison {
 
 inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
-struct WorkflowsResult {
-  std::vector<WorkflowComparison> comparisons;  // plain, then glTF
-  // This holds one sheet with labels for each environment, in display values. Each group has two rows, one
-  // for each material. A row shows the source, and then the plain methods.
-  std::vector<Image> sheets;
-};
-
 // Renders every material and the result of each method. The smallest error is that of the best result, either
 // of a search under these environments, or of a method with the same F0. So no method has a smaller error.
 // Throws kUsage for empty lists, numbers out of range, and an environment with the name of another
 // environment or of the headlight. Also throws kInterrupted.
-WorkflowsResult study_workflows(const WorkflowsOptions& options);
+//
+// Returns the comparisons for plain diffuse, then for glTF. If `sheets` is not null, it receives one sheet
+// with labels for each environment, in display values. Each group has two rows, one for each material. A row
+// shows the source, and then the plain methods.
+std::vector<WorkflowComparison> study_workflows(const WorkflowsOptions& options,
+                                                std::vector<Image>* sheets = nullptr);
 
 // Returns a row for each convention, material, method and light. The last light is the headlight.
-std::string workflows_csv(const WorkflowsOptions& options, const WorkflowsResult& result);
+std::string workflows_csv(const WorkflowsOptions& options,
+                          const std::vector<WorkflowComparison>& comparisons);
 
 // The following tests round trips. Random metallic materials are converted to the specular workflow by
 // equation (2), and by each method to the metallic workflow again (Sztrajman et al. 2019, section 8, figure

@@ -38,107 +38,82 @@ bool is_published(const Csv& csv) {
          !holds("specular2", "");
 }
 
-class TableReader {
- public:
-  TableReader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {
-    table_.remarks = csv.remarks;
-    if (!map.columns.empty() || !is_published(csv)) return;
-    map_ = column_map(kPublished);
-    table_.remarks.push_back(csv.name + ": read as the table published with the paper (" + kPublished +
-                             "): mitsuba/ward to mitsuba/as, eta2 is F0");
+constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
+using Places = std::array<std::size_t, kColumns.size()>;  // of kColumns in a line of the file
+
+[[noreturn]] void fail_without(const Csv& csv, const std::string& wanted) {
+  if (const std::string columns = csv.comment(kSourceColumnsComment); !columns.empty())
+    csv.fail(csv.header.number, 1,
+             "this command needs the columns alpha1, specular1, alpha2, specular2 of remapc sweep; the "
+             "table has named parameters (" +
+                 columns + ")");
+  std::vector<std::string> found;
+  for (const CsvCell& cell : csv.header.cells) found.emplace_back(cell.text);
+  if (found.size() == 1)
+    csv.fail(
+        csv.header.number, 1,
+        "the header row has one column, \"" + found[0] + "\" (separate columns by comma, tab or semicolon)");
+  std::string remedy = suggestion(wanted, found);
+  remedy.back() = ';';
+  csv.fail(csv.header.number, 1,
+           "has no column " + wanted + remedy + " --columns " + wanted +
+               "=NAME reads another column, --columns " + kPublished + " reads the table of the paper)");
+}
+
+Places places_of(const Csv& csv, const ColumnMap& map) {
+  const std::vector<CsvCell>& cells = csv.header.cells;
+  Places places{};
+  places.fill(kMissing);
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    const auto renamed = map.columns.find(kColumns[i]);
+    const std::string& wanted = renamed == map.columns.end() ? kColumns[i] : renamed->second;
+    for (std::size_t j = 0; j < cells.size(); ++j)
+      if (cells[j].text == wanted) places[i] = j;
+    if (places[i] == kMissing && i < kRequiredColumns) fail_without(csv, wanted);
   }
+  const bool source = places[kDiffuse1] != kMissing, target = places[kDiffuse2] != kMissing;
+  if (source != target)
+    csv.fail(csv.header.number, 1,
+             "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no column " +
+                 kColumns[source ? kDiffuse2 : kDiffuse1] + " (both or neither are needed)");
+  return places;
+}
 
-  Table read() {
-    table_.name = csv_.name;
-    table_.comments = csv_.comments;
-    find_columns();
-    for (const CsvLine& line : csv_.lines) read_row(line);
-    table_.source = side("source", map_.source);
-    table_.target = side("target", map_.target);
-    find_limits(&table_);
-    return std::move(table_);
+TableRow row_of(const Csv& csv, const Places& places, const CsvLine& line) {
+  const auto number = [&](std::size_t column) {
+    return csv.number(line, line.cells[places[column]], kColumns[column]);
+  };
+  TableRow row;
+  row.line = line.number;
+  row.alpha1 = number(0);
+  row.specular1 = number(1);
+  row.alpha2 = number(2);
+  row.specular2 = number(3);
+  if (places[kDiffuse1] != kMissing) {
+    row.diffuse1 = number(kDiffuse1);
+    row.diffuse2 = number(kDiffuse2);
   }
+  row.error = places[kError] != kMissing ? number(kError) : std::numeric_limits<double>::quiet_NaN();
+  if (places[kStatus] != kMissing) row.status = read_status(csv, line, line.cells[places[kStatus]]);
+  return row;
+}
 
- private:
-  void find_columns() {
-    const std::vector<CsvCell>& cells = csv_.header.cells;
-    std::vector<std::string> found;
-    for (const CsvCell& cell : cells) found.emplace_back(cell.text);
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      const auto renamed = map_.columns.find(kColumns[i]);
-      const std::string& wanted = renamed == map_.columns.end() ? kColumns[i] : renamed->second;
-      for (std::size_t j = 0; j < cells.size(); ++j)
-        if (cells[j].text == wanted) places_[i] = j;
-      if (places_[i] == kMissing && i < kRequiredColumns) fail_without(wanted, found);
-    }
-    const bool source = places_[kDiffuse1] != kMissing, target = places_[kDiffuse2] != kMissing;
-    if (source != target)
-      csv_.fail(csv_.header.number, 1,
-                "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no column " +
-                    kColumns[source ? kDiffuse2 : kDiffuse1] + " (both or neither are needed)");
-    table_.has_diffuse = source;
-    table_.has_error = places_[kError] != kMissing;
+// Returns the side that the comments name, unless it is given.
+ModelSide side_of(const Csv& csv, const std::string& role, const ModelSide& given) {
+  if (!given.model.empty()) return given;
+  ModelSide side;
+  side.model = csv.comment(role);
+  if (const std::string text = csv.comment(role + "_roughness"); !text.empty()) {
+    const auto convention = encoding_from_name(text);
+    if (!convention)
+      throw Error(ErrorKind::kInput, csv.name + ": " + role + "_roughness: unknown convention \"" + text +
+                                         "\"" + suggestion(text, convention_names()));
+    side.roughness = *convention;
   }
-
-  [[noreturn]] void fail_without(const std::string& wanted, const std::vector<std::string>& found) const {
-    if (const std::string columns = csv_.comment(kSourceColumnsComment); !columns.empty())
-      csv_.fail(csv_.header.number, 1,
-                "this command needs the columns alpha1, specular1, alpha2, specular2 of remapc sweep; the "
-                "table has named parameters (" +
-                    columns + ")");
-    if (found.size() == 1)
-      csv_.fail(csv_.header.number, 1,
-                "the header row has one column, \"" + found[0] +
-                    "\" (separate columns by comma, tab or semicolon)");
-    std::string remedy = suggestion(wanted, found);
-    remedy.back() = ';';
-    csv_.fail(csv_.header.number, 1,
-              "has no column " + wanted + remedy + " --columns " + wanted +
-                  "=NAME reads another column, --columns " + kPublished + " reads the table of the paper)");
-  }
-
-  void read_row(const CsvLine& line) {
-    const auto number = [&](std::size_t column) {
-      return csv_.number(line, line.cells[places_[column]], kColumns[column]);
-    };
-    TableRow row;
-    row.line = line.number;
-    row.alpha1 = number(0);
-    row.specular1 = number(1);
-    row.alpha2 = number(2);
-    row.specular2 = number(3);
-    if (table_.has_diffuse) {
-      row.diffuse1 = number(kDiffuse1);
-      row.diffuse2 = number(kDiffuse2);
-    }
-    row.error = table_.has_error ? number(kError) : std::numeric_limits<double>::quiet_NaN();
-    if (places_[kStatus] != kMissing) row.status = read_status(csv_, line, line.cells[places_[kStatus]]);
-    table_.rows.push_back(row);
-  }
-
-  ModelSide side(const std::string& role, const ModelSide& given) const {
-    if (!given.model.empty()) return given;
-    ModelSide side;
-    side.model = csv_.comment(role);
-    if (const std::string text = csv_.comment(role + "_roughness"); !text.empty()) {
-      const auto convention = encoding_from_name(text);
-      if (!convention)
-        throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness: unknown convention \"" +
-                                           text + "\"" + suggestion(text, convention_names()));
-      side.roughness = *convention;
-    }
-    for (const char* suffix : {"_specular", "_specular_column"})
-      if (const std::string text = csv_.comment(role + suffix); !text.empty()) side.specular = text;
-    return side;
-  }
-
-  static constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
-
-  const Csv& csv_;
-  ColumnMap map_;
-  Table table_;
-  std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
-};
+  for (const char* suffix : {"_specular", "_specular_column"})
+    if (const std::string text = csv.comment(role + suffix); !text.empty()) side.specular = text;
+  return side;
+}
 
 std::optional<double> limit_in(const Table& table, const std::string& key) {
   for (const auto& [found, value] : table.comments) {
@@ -190,7 +165,26 @@ Table parse_table(std::string_view text, const std::string& name, const ColumnMa
   return table_from_csv(parse_csv(text, name), map);
 }
 
-Table table_from_csv(const Csv& csv, const ColumnMap& map) { return TableReader(csv, map).read(); }
+Table table_from_csv(const Csv& csv, const ColumnMap& given) {
+  Table table;
+  table.remarks = csv.remarks;
+  ColumnMap map = given;
+  if (map.columns.empty() && is_published(csv)) {
+    map = column_map(kPublished);
+    table.remarks.push_back(csv.name + ": read as the table published with the paper (" + kPublished +
+                            "): mitsuba/ward to mitsuba/as, eta2 is F0");
+  }
+  table.name = csv.name;
+  table.comments = csv.comments;
+  const Places places = places_of(csv, map);
+  table.has_diffuse = places[kDiffuse1] != kMissing;
+  table.has_error = places[kError] != kMissing;
+  for (const CsvLine& line : csv.lines) table.rows.push_back(row_of(csv, places, line));
+  table.source = side_of(csv, "source", map.source);
+  table.target = side_of(csv, "target", map.target);
+  find_limits(&table);
+  return table;
+}
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   const std::string bytes = read_file(path);

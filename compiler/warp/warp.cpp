@@ -98,13 +98,6 @@ Overlap largest_overlap(const MaterialRef& source, const MaterialRef& target,
   return most;
 }
 
-// A Matched holds a match and the data that it was computed from.
-struct Matched {
-  Selection source, target;
-  Points source_positions, target_positions;
-  AppearanceMatch match;
-};
-
 // Fills the diagnostics of the points and the warp.
 void diagnose(const PointSets& sets, AppearanceMatch& match) {
   WarpDiagnostics& found = match.diagnostics;
@@ -115,45 +108,6 @@ void diagnose(const PointSets& sets, AppearanceMatch& match) {
       rms_distance(images_of(match.warp, sets.source_centres), sets.target_centres, &found.worst_stroke);
   found.stroke_contradiction =
       rms_distance(images_of(affine_from_strokes(sets), sets.source_centres), sets.target_centres);
-}
-
-Matched matched(const MaterialRef& source, const MaterialRef& target, const std::vector<StrokePair>& strokes,
-                AppearanceDistance distance) {
-  require_valid(source, target, strokes);
-  const FeaturePair features = appearance_features(source, target, distance);
-  const AppearanceSpace from_space = appearance_space(source, features.source);
-  const AppearanceSpace to_space = appearance_space(target, features.target);
-
-  Matched result;
-  AppearanceMatch& match = result.match;
-  WarpDiagnostics& found = match.diagnostics;
-  found.shared = largest_overlap(source, target, strokes);
-  for (std::size_t k = 0; k < strokes.size(); ++k) found.strokes.push_back(stroke_name(strokes, k));
-  found.source_dimensions = dimension_of(from_space);
-  found.target_dimensions = dimension_of(to_space);
-  found.dimensions = std::max(found.source_dimensions, found.target_dimensions);
-  const auto last = static_cast<std::size_t>(found.dimensions) - 1;
-  found.source_stress = from_space.stress[last];
-  found.target_stress = to_space.stress[last];
-
-  match.source = placement_of(source, features.source, from_space, found.dimensions);
-  match.target = placement_of(target, features.target, to_space, found.dimensions);
-  match.target_radius = to_space.radius;
-  found.coordinates_error = std::max(match.source.fit_error, match.target.fit_error);
-  result.source = selection_of(source, strokes, &StrokePair::source, kMostSources);
-  result.target = selection_of(target, strokes, &StrokePair::target, kMostTargets);
-  found.source_left_out = result.source.left_out;
-  found.target_left_out = result.target.left_out;
-  result.source_positions = positions_of(match.source, source, result.source.texels);
-  result.target_positions = positions_of(match.target, target, result.target.texels);
-  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes),
-                          occupancy_of(result.target_positions, result.target.strokes),
-                          common_axes(from_space, to_space, found.dimensions),
-                          stroke_centres(result.source_positions, result.source.strokes),
-                          stroke_centres(result.target_positions, result.target.strokes)};
-  match.warp = register_points(sets, affine_from_strokes(sets));
-  diagnose(sets, match);
-  return result;
 }
 
 // Returns the material with only these texels, all of them in 0 to 1.
@@ -168,17 +122,49 @@ WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32
 
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, AppearanceDistance distance) {
-  return matched(source, target, strokes, distance).match;
+  require_valid(source, target, strokes);
+  const FeaturePair features = appearance_features(source, target, distance);
+  const AppearanceSpace from_space = appearance_space(source, features.source);
+  const AppearanceSpace to_space = appearance_space(target, features.target);
+
+  AppearanceMatch match;
+  WarpDiagnostics& found = match.diagnostics;
+  found.shared = largest_overlap(source, target, strokes);
+  for (std::size_t k = 0; k < strokes.size(); ++k) found.strokes.push_back(stroke_name(strokes, k));
+  found.source_dimensions = dimension_of(from_space);
+  found.target_dimensions = dimension_of(to_space);
+  found.dimensions = std::max(found.source_dimensions, found.target_dimensions);
+  const auto last = static_cast<std::size_t>(found.dimensions) - 1;
+  found.source_stress = from_space.stress[last];
+  found.target_stress = to_space.stress[last];
+
+  match.source = placement_of(source, features.source, from_space, found.dimensions);
+  match.target = placement_of(target, features.target, to_space, found.dimensions);
+  match.target_radius = to_space.radius;
+  found.coordinates_error = std::max(match.source.fit_error, match.target.fit_error);
+  const Selection from = selection_of(source, strokes, &StrokePair::source, kMostSources);
+  Selection to = selection_of(target, strokes, &StrokePair::target, kMostTargets);
+  found.source_left_out = from.left_out;
+  found.target_left_out = to.left_out;
+  match.source_positions = positions_of(match.source, source, from.texels);
+  match.target_positions = positions_of(match.target, target, to.texels);
+  match.target_texels = std::move(to.texels);
+  const PointSets sets = {occupancy_of(match.source_positions, from.strokes),
+                          occupancy_of(match.target_positions, to.strokes),
+                          common_axes(from_space, to_space, found.dimensions),
+                          stroke_centres(match.source_positions, from.strokes),
+                          stroke_centres(match.target_positions, to.strokes)};
+  match.warp = register_points(sets, affine_from_strokes(sets));
+  diagnose(sets, match);
+  return match;
 }
 
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, AppearanceDistance distance, bool exact) {
-  Matched matched_texels = matched(source, target, strokes, distance);
-  WarpFit fit{std::move(matched_texels.match), {}};
+  WarpFit fit{match_appearances(source, target, strokes, distance), {}};
   fit.compiled.coordinates = std::get<AppearanceCoordinates>(fit.source.coordinates);
-  fit.compiled.table =
-      compile_table(fit.warp, matched_texels.source_positions, nearest_texel(matched_texels.target_positions),
-                    reduced(target, matched_texels.target.texels), exact);
+  fit.compiled.table = compile_table(fit.warp, fit.source_positions, nearest_texel(fit.target_positions),
+                                     reduced(target, fit.target_texels), exact);
   return fit;
 }
 

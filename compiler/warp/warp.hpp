@@ -35,8 +35,10 @@ struct WarpDiagnostics {
 struct AppearanceMatch {
   WarpDiagnostics diagnostics;
   Placement source, target;
-  SmoothWarp warp;             // from the source's to the template's space
-  double target_radius = 0.0;  // RMS spread of the template, in features
+  std::vector<std::uint32_t> target_texels;   // the texels of the template that the match used
+  Points source_positions, target_positions;  // of the texels that the match used
+  SmoothWarp warp;                            // from the source's to the template's space
+  double target_radius = 0.0;                 // RMS spread of the template, in features
 };
 
 // Matches two materials in one thread. Equal inputs give equal results. It uses all texels of strokes, and

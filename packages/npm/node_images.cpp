@@ -471,7 +471,7 @@ class NodeCodec final : public ImageCodec {
 
 class NodeImages final : public ImageLibrary {
  public:
-  void set_limits(const ImageLimits&) const override {}
+  void set_limits(int, std::uint64_t) const override {}
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
     return std::make_unique<StoredByNode>(path, part);
   }

@@ -130,11 +130,10 @@ Json open_converter(const Field& request) {
     answer["notes"] = answer["assumptions"] = Json::list();
   } else {
     const ConversionRequest names = request_of(request);
-    const ConversionChoice choice = choose_conversion(names, graph());
-    held.conversion = build_conversion(choice, names.via, graph());
-    const ConverterInfo& info = held.converter().info();
-    held.source = choice.source_width(info);
-    held.target = choice.target_width(info);
+    held.conversion = build_conversion(choose_conversion(names, graph()), names.via, graph());
+    const ConversionChoice& choice = held.conversion.choice;
+    held.source = held.conversion.source_width();
+    held.target = held.conversion.target_width();
     answer = conversion_json(held, held.conversion.domain());
     answer["path"] = path_json(held.conversion.path);
     const auto difference = picture_difference(held.conversion.path);

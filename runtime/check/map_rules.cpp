@@ -77,7 +77,7 @@ Orientation seen_orientation(const std::vector<const Plane*>& rgb, int columns, 
 Orientation claimed(const CheckedMaterial& material, const MaterialMap& map, const GltfConsumer* reader) {
   if (material.kind == MaterialKind::kGltf) return Orientation::kOpenGl;
   if (const auto stated = stated_green(map.name))
-    return stated->green == NormalGreen::kUp ? Orientation::kOpenGl : Orientation::kDirectX;
+    return *stated == NormalGreen::kUp ? Orientation::kOpenGl : Orientation::kDirectX;
   if (reader != nullptr) return reader->wants_directx_normals ? Orientation::kDirectX : Orientation::kOpenGl;
   return Orientation::kUnknown;
 }

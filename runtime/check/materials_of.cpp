@@ -32,14 +32,12 @@ void add_set(const fs::path& root, const FoundSet& set, FoundMaterials& found) {
   material.below = set.folder;
   material.name = display_path(root / set.folder / set.name);
   for (const FoundMap& map : set.maps) {
-    std::vector<Tile> files = map.tiles;
-    if (files.empty()) files.push_back({0, map.path});
-    for (const Tile& tile : files) {
+    for (const auto& [number, path] : map.tiles.empty() ? Tiles{{0, map.path}} : map.tiles) {
       for (const ChannelMeaning& entry : map.meaning)
         material.uses.push_back({entry.role, material.maps.size(), entry.channels, "", {}, "", false});
-      const fs::path file = root / tile.path;
+      const fs::path file = root / path;
       material.maps.push_back(
-          {.file = file, .shown = file.string(), .name = file.filename().string(), .tile = tile.number});
+          {.file = file, .shown = file.string(), .name = file.filename().string(), .tile = number});
     }
   }
   found.materials.push_back(std::move(material));

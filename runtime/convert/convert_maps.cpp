@@ -98,11 +98,12 @@ struct PlacedView {
 // A Texels is a group of three or four channels of linear floats that fill every texel. All of them are moved
 // in one step.
 template <typename Byte>
-struct Texels {
-  std::vector<PlacedView<Byte>> channels;
+using Texels = std::vector<PlacedView<Byte>>;
 
-  Byte* at(const Segment& segment) const { return remap::at(channels[0].view, segment.x, segment.y); }
-};
+template <typename Byte>
+Byte* first_at(const Texels<Byte>& texels, const Segment& segment) {
+  return at(texels.front().view, segment.x, segment.y);
+}
 
 // Returns the groups of channels that fill whole texels of floats. Parameters that share a map are in
 // separate groups.
@@ -122,9 +123,9 @@ std::vector<Texels<Byte>> filled_texels(const std::vector<PlacedView<Byte>>& cha
             other.view.row_stride == first.view.row_stride &&
             (next == nullptr || other.parameter == first.parameter))
           next = &other;
-      if (next != nullptr) texels.channels.push_back(*next);
+      if (next != nullptr) texels.push_back(*next);
     }
-    if (texels.channels.size() == size) all.push_back(std::move(texels));
+    if (texels.size() == size) all.push_back(std::move(texels));
   }
   return all;
 }
@@ -181,7 +182,7 @@ class Conversion {
 template <typename Byte>
 bool is_in(const std::vector<Texels<Byte>>& all, Parameter parameter, std::size_t channel) {
   return std::ranges::any_of(all, [&](const Texels<Byte>& texels) {
-    return std::ranges::any_of(texels.channels, [&](const PlacedView<Byte>& placed) {
+    return std::ranges::any_of(texels, [&](const PlacedView<Byte>& placed) {
       return placed.parameter == parameter && placed.channel == channel;
     });
   });
@@ -288,9 +289,9 @@ void Conversion::find_texels() {
 void Conversion::load_texels(const Segment& segment, Scratch& scratch) const {
   for (const Texels<const std::byte>& texels : source_texels_) {
     std::vector<float*> rows;
-    for (const auto& placed : texels.channels)
+    for (const auto& placed : texels)
       rows.push_back(scratch.source.own_row(placed.parameter, placed.channel));
-    load_interleaved(texels.at(segment), segment.count, rows);
+    load_interleaved(first_at(texels, segment), segment.count, rows);
   }
 }
 
@@ -501,9 +502,9 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
   }
   for (const Texels<std::byte>& texels : target_texels_) {
     std::vector<const float*> rows;
-    for (const auto& [parameter, channel, view] : texels.channels)
+    for (const auto& [parameter, channel, view] : texels)
       rows.push_back(scratch.target.row(parameter, std::min(channel, scratch.target.count(parameter) - 1)));
-    store_interleaved(rows, segment.count, texels.at(segment));
+    store_interleaved(rows, segment.count, first_at(texels, segment));
   }
 }
 

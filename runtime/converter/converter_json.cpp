@@ -53,7 +53,7 @@ std::string converter_to_json(const ConverterData& data) {
   add("rms_error", errors_json(data.info).dump());
   add("ssim", ssim_json(data.info).dump());
   if (const auto& pictures = data.info.pictures)
-    add("pictures", Json({{"converted", pictures->converted}, {"copied", pictures->copied}}).dump());
+    add("pictures", Json({{"converted", pictures->converted}, {"copied", *pictures->copied}}).dump());
   add("pole", Json(decimal(form.pole)).dump());
   add("alpha", terms_json(form.alpha).dump());
   add("specular", terms_json(form.specular).dump());

@@ -16,20 +16,20 @@ namespace {
 
 using std::numbers::pi;
 
-double product(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double product(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-double angle_between(const Direction& a, const Direction& b) {
+double angle_between(const Vector3& a, const Vector3& b) {
   return std::acos(std::clamp(product(a, b), -1.0, 1.0));
 }
 
 // Returns the direction at `elevation` above the horizon and at `azimuth`, which turns from -z towards +x,
 // both in degrees.
-Direction direction_at(double elevation, double azimuth) {
+Vector3 direction_at(double elevation, double azimuth) {
   return map_direction({0.5 + azimuth / 360.0, 0.5 - elevation / 180.0});
 }
 
 Environment computed(const std::string& name, int height,
-                     const std::function<Rgb(const Direction&)>& radiance) {
+                     const std::function<Rgb(const Vector3&)>& radiance) {
   Environment environment{name, {2 * height, height, 3, {}}};
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < 2 * height; ++column) {
@@ -61,11 +61,11 @@ double soft_step(double value, double edge, double softness) {
 // degrees, so that a map of 256 rows resolves it. The sun gives a horizontal surface five times the
 // irradiance of the sky, as on a clear day. The ground is grey.
 Environment clear_sky(int height) {
-  const Direction sun = direction_at(40.0, 120.0);
+  const Vector3 sun = direction_at(40.0, 120.0);
   const double radius = 1.5 * pi / 180.0;
   const double scale = 0.5 / kClear.luminance(1.0, pi / 2.0 - 40.0 * pi / 180.0);
   const double sun_radiance = 5.0 * 0.5 * pi / (pi * radius * radius * sun.y);
-  return computed("sky", height, [=](const Direction& w) -> Rgb {
+  return computed("sky", height, [=](const Vector3& w) -> Rgb {
     if (w.y <= 0.0) return {0.42, 0.38, 0.33};
     const double from_sun = angle_between(w, sun);
     const double sky = scale * kClear.luminance(w.y, from_sun);
@@ -76,7 +76,7 @@ Environment clear_sky(int height) {
 
 Environment overcast_sky(int height) {
   const double scale = 0.8 / kOvercast.luminance(1.0, 0.0);
-  return computed("overcast", height, [=](const Direction& w) -> Rgb {
+  return computed("overcast", height, [=](const Vector3& w) -> Rgb {
     if (w.y <= 0.0) return {0.10, 0.11, 0.08};
     const double sky = scale * kOvercast.luminance(w.y, 0.0);
     return {0.97 * sky, sky, 1.05 * sky};
@@ -93,7 +93,7 @@ Environment studio(int height) {
   static constexpr std::array<AreaLight, 3> kLights = {{{35.0, -130.0, 18.0, 14.0, {9.0, 8.6, 8.0}},
                                                         {10.0, 100.0, 35.0, 10.0, {3.0, 3.3, 3.8}},
                                                         {55.0, 20.0, 8.0, 30.0, {4.0, 4.0, 4.0}}}};
-  return computed("studio", height, [](const Direction& w) {
+  return computed("studio", height, [](const Vector3& w) {
     Rgb sum = {0.06 + 0.04 * w.y, 0.06 + 0.04 * w.y, 0.065 + 0.04 * w.y};
     for (const AreaLight& light : kLights) {
       const MapPosition position = map_position(w);
@@ -109,11 +109,11 @@ Environment studio(int height) {
 
 }  // namespace
 
-MapPosition map_position(const Direction& w) {
+MapPosition map_position(const Vector3& w) {
   return {0.5 + std::atan2(w.x, -w.z) / (2.0 * pi), std::acos(std::clamp(w.y, -1.0, 1.0)) / pi};
 }
 
-Direction map_direction(const MapPosition& position) {
+Vector3 map_direction(const MapPosition& position) {
   const double azimuth = 2.0 * pi * (position.u - 0.5), polar = pi * position.v;
   return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }

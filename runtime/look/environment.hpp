@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "look/image.hpp"
+#include "look/scene.hpp"
 
 namespace remap {
-
-// A Direction is a unit vector in the space of the sweep scene: y points up, the camera is on +z.
-struct Direction {
-  double x = 0.0, y = 0.0, z = 0.0;
-};
 
 // An Environment is linear RGB radiance. The map is twice as wide as high. Its top row is +y. Its middle
 // column is -z, the viewing direction of the camera. Columns to the right turn towards +x.
@@ -26,8 +22,8 @@ struct Environment {
 struct MapPosition {
   double u = 0.0, v = 0.0;
 };
-MapPosition map_position(const Direction& direction);
-Direction map_direction(const MapPosition& position);
+MapPosition map_position(const Vector3& direction);
+Vector3 map_direction(const MapPosition& position);
 
 // Reads an HDR or EXR file. The environment gets the name of the file. A single channel is grey, and values
 // below 0 become 0. Throws kInput for a file that cannot be read or is not twice as wide as high. Also throws

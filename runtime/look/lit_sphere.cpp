@@ -16,22 +16,20 @@ namespace {
 
 using std::numbers::pi;
 
-Direction operator*(double factor, const Direction& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
-Direction operator+(const Direction& a, const Direction& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Direction normalised(const Direction& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
+Vector3 operator*(double factor, const Vector3& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
+Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+double dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector3 normalised(const Vector3& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
 
 // A Frame is a normal with two tangents.
 struct Frame {
-  Direction tangent, bitangent, normal;
-  Direction to_world(double x, double y, double z) const {
-    return x * tangent + (y * bitangent + z * normal);
-  }
+  Vector3 tangent, bitangent, normal;
+  Vector3 to_world(double x, double y, double z) const { return x * tangent + (y * bitangent + z * normal); }
 };
 
 // Returns an arbitrary frame, because lobes are isotropic. The normal of a visible point has z > 0.
-Frame frame_about(const Direction& n) {
-  const Direction tangent = normalised({n.z, 0.0, -n.x});
+Frame frame_about(const Vector3& n) {
+  const Vector3 tangent = normalised({n.z, 0.0, -n.x});
   return {tangent,
           {n.y * tangent.z - n.z * tangent.y, n.z * tangent.x - n.x * tangent.z,
            n.x * tangent.y - n.y * tangent.x},
@@ -93,7 +91,7 @@ Mixture mixture_for(const auto& materials, int samples) {
 
 // Computes the geometry of a light direction for evaluate_lobe. Returns false if light or view is below the
 // horizon.
-bool is_lit(const Direction& normal, const Direction& view, const Direction& light, LocalGeometry* g) {
+bool is_lit(const Vector3& normal, const Vector3& view, const Vector3& light, LocalGeometry* g) {
   const double cos_light = dot(normal, light), cos_view = dot(normal, view), cos_between = dot(light, view);
   if (cos_light <= 0.0 || cos_view <= 0.0 || 2.0 + 2.0 * cos_between <= 0.0) return false;
   *g = local_geometry(cos_light, cos_view, cos_between);
@@ -103,18 +101,19 @@ bool is_lit(const Direction& normal, const Direction& view, const Direction& lig
 // A PixelSampler draws the directions of one pixel.
 class PixelSampler {
  public:
-  PixelSampler(const Mixture& mixture, const SurfacePoint& point, std::uint64_t key)
+  PixelSampler(const Mixture& mixture, const Vector3& point, std::uint64_t key)
       : mixture_(mixture),
         frame_(frame_about({point.x, point.y, point.z})),
         view_(normalised({-point.x, -point.y, kCameraDistance - point.z})),
         key_(key) {}
 
-  const Direction& normal() const { return frame_.normal; }
-  const Direction& view() const { return view_; }
+  const Mixture& mixture() const { return mixture_; }
+  const Vector3& normal() const { return frame_.normal; }
+  const Vector3& view() const { return view_; }
 
   // Returns sample `i` of a technique. It is from a Hammersley point set with a random shift for each pixel,
   // technique and half (Cranley and Patterson 1976).
-  Direction direction(Technique technique, std::size_t half, std::uint32_t i) const {
+  Vector3 direction(Technique technique, std::size_t half, std::uint32_t i) const {
     const std::uint64_t key = 2 * ((key_ * kTechniqueCount + technique) * kHalves + half);
     double u = (i + 0.5) / mixture_.counts[technique] + hashed(key);
     double v = radical_inverse(i) + hashed(key + 1);
@@ -124,47 +123,41 @@ class PixelSampler {
       const double sine = std::sqrt(1.0 - u * u);
       return frame_.to_world(sine * std::cos(azimuth), sine * std::sin(azimuth), u);
     }
-    const Direction half_vector = visible_normal(mixture_.alphas[technique], u, azimuth);
+    const Vector3 half_vector = visible_normal(mixture_.alphas[technique], u, azimuth);
     return 2.0 * dot(view_, half_vector) * half_vector + (-1.0) * view_;
   }
 
  private:
   // Returns a visible normal of GGX. It is drawn from a stretched spherical cap (Dupuy and Benyoub 2023).
-  Direction visible_normal(double alpha, double u, double azimuth) const {
-    const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
-                                            alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
+  Vector3 visible_normal(double alpha, double u, double azimuth) const {
+    const Vector3 stretched = normalised({alpha * dot(view_, frame_.tangent),
+                                          alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
     const double z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
     const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
-    const Direction h = normalised({alpha * (sine * std::cos(azimuth) + stretched.x),
-                                    alpha * (sine * std::sin(azimuth) + stretched.y), z + stretched.z});
+    const Vector3 h = normalised({alpha * (sine * std::cos(azimuth) + stretched.x),
+                                  alpha * (sine * std::sin(azimuth) + stretched.y), z + stretched.z});
     return frame_.to_world(h.x, h.y, h.z);
   }
 
   const Mixture& mixture_;
   Frame frame_;
-  Direction view_;
+  Vector3 view_;
   std::uint64_t key_;
 };
 
 // Calls visit(half, light, geometry, solid_angle) for each lit direction of a pixel. `solid_angle` is the
 // share of directions that one sample of this half represents.
-void for_each_sample(const Mixture& mixture, const PixelSampler& sampler, const auto& visit) {
+void for_each_sample(const PixelSampler& sampler, const auto& visit) {
+  const Mixture& mixture = sampler.mixture();
   for (std::size_t half = 0; half < kHalves; ++half)
     for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
       for (std::uint32_t i = 0; i < mixture.counts[technique]; ++i) {
-        const Direction light = sampler.direction(technique, half, i);
+        const Vector3 light = sampler.direction(technique, half, i);
         LocalGeometry geometry;
         if (!is_lit(sampler.normal(), sampler.view(), light, &geometry)) continue;
         visit(half, light, geometry, 1.0 / mixture.density(geometry));
       }
 }
-
-// A Rendering holds the data that all pixels share.
-struct Rendering {
-  const RadiancePyramid& environments;
-  std::span<const SphereMaterial> materials;
-  Mixture mixture;
-};
 
 // Returns the radiance towards the camera for light of radiance 1 from a solid angle of 1 steradian.
 double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
@@ -182,7 +175,7 @@ void require(const SphereSampling& sampling) {
 }
 
 // Returns the texel that the camera sees at a point of the ball, interpolated between the closest four.
-BallTexel texel_at(const TexturedBall& ball, const SurfacePoint& point) {
+BallTexel texel_at(const TexturedBall& ball, const Vector3& point) {
   const double u = 0.5 + std::atan2(point.x, point.z) / pi,
                v = std::acos(std::clamp(point.y, -1.0, 1.0)) / pi;
   const double x = std::clamp(u * ball.width - 0.5, 0.0, ball.width - 1.0),
@@ -203,14 +196,14 @@ BallTexel texel_at(const TexturedBall& ball, const SurfacePoint& point) {
   return mean;
 }
 
-void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
-               SpherePictures* pictures) {
-  for (std::size_t e = 0; 3 * e < rendering.environments.channel_count(); ++e)
-    for (const Lamp& lamp : rendering.environments.lamps(e)) {
+void add_lamps(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
+               const PixelSampler& sampler, std::size_t pixel, SpherePictures* pictures) {
+  for (std::size_t e = 0; 3 * e < environments.channel_count(); ++e)
+    for (const Lamp& lamp : environments.lamps(e)) {
       LocalGeometry geometry;
       if (!is_lit(sampler.normal(), sampler.view(), lamp.direction, &geometry)) continue;
-      for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
-        const double factor = reflected(rendering.materials[m], geometry);
+      for (std::size_t m = 0; m < materials.size(); ++m) {
+        const double factor = reflected(materials[m], geometry);
         for (std::size_t half = 0; half < kHalves; ++half)
           for (std::size_t c = 0; c < 3; ++c)
             pictures->values(m, half, pixel)[3 * e + c] += static_cast<float>(factor * lamp.flux[c]);
@@ -218,19 +211,18 @@ void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::siz
     }
 }
 
-void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
-                 SpherePictures* pictures) {
-  std::vector<float> radiance(rendering.environments.channel_count());
-  for_each_sample(
-      rendering.mixture, sampler,
-      [&](std::size_t half, const Direction& light, const LocalGeometry& geometry, double solid_angle) {
-        rendering.environments.look_up(light, solid_angle / kHalves, radiance.data());
-        for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
-          const auto factor = static_cast<float>(reflected(rendering.materials[m], geometry) * solid_angle);
-          float* values = pictures->values(m, half, pixel);
-          for (std::size_t c = 0; c < radiance.size(); ++c) values[c] += factor * radiance[c];
-        }
-      });
+void add_samples(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
+                 const PixelSampler& sampler, std::size_t pixel, SpherePictures* pictures) {
+  std::vector<float> radiance(environments.channel_count());
+  for_each_sample(sampler, [&](std::size_t half, const Vector3& light, const LocalGeometry& geometry,
+                               double solid_angle) {
+    environments.look_up(light, solid_angle / kHalves, radiance.data());
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      const auto factor = static_cast<float>(reflected(materials[m], geometry) * solid_angle);
+      float* values = pictures->values(m, half, pixel);
+      for (std::size_t c = 0; c < radiance.size(); ++c) values[c] += factor * radiance[c];
+    }
+  });
 }
 
 }  // namespace
@@ -276,7 +268,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
   if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
 
   SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
-  const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};
+  const Mixture mixture = mixture_for(materials, sampling.samples);
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
   run_parallel(side, sampling.jobs, [&](std::size_t row) {
@@ -285,12 +277,12 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
     const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
     const auto end = std::lower_bound(pixels.begin(), pixels.end(), (row + 1) * side);
     for (auto pixel = begin; pixel != end; ++pixel) {
-      SurfacePoint point;
+      Vector3 point;
       sphere_point(sampling.resolution, *pixel % side + 0.5, static_cast<double>(row) + 0.5, &point);
-      const PixelSampler sampler(rendering.mixture, point, sampling.shares_directions ? 0 : *pixel);
+      const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *pixel);
       const auto place = static_cast<std::size_t>(pixel - pixels.begin());
-      add_lamps(rendering, sampler, place, &pictures);
-      add_samples(rendering, sampler, place, &pictures);
+      add_lamps(environments, materials, sampler, place, &pictures);
+      add_samples(environments, materials, sampler, place, &pictures);
     }
     if (sampling.progress) sampling.progress();
   });
@@ -318,14 +310,14 @@ struct BallPixel {
   }
 };
 
-void add_light(const RadiancePyramid& environment, const Mixture& mixture, BallPixel& pixel) {
+void add_light(const RadiancePyramid& environment, BallPixel& pixel) {
   LocalGeometry geometry;
   for (const Lamp& lamp : environment.lamps(0))
     if (is_lit(pixel.sampler.normal(), pixel.sampler.view(), lamp.direction, &geometry))
       pixel.add(lamp.flux, 1.0, geometry);
   std::array<float, 3> radiance{};
-  for_each_sample(mixture, pixel.sampler,
-                  [&](std::size_t, const Direction& light, const LocalGeometry& sample, double solid_angle) {
+  for_each_sample(pixel.sampler,
+                  [&](std::size_t, const Vector3& light, const LocalGeometry& sample, double solid_angle) {
                     environment.look_up(light, solid_angle / kHalves, radiance.data());
                     pixel.add(radiance, solid_angle / kHalves, sample);
                   });
@@ -344,14 +336,14 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
     const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
     const auto end = std::lower_bound(pixels.begin(), pixels.end(), (row + 1) * side);
     for (auto place = begin; place != end; ++place) {
-      SurfacePoint point;
+      Vector3 point;
       sphere_point(sampling.resolution, *place % side + 0.5, static_cast<double>(row) + 0.5, &point);
       std::vector<BallTexel> texels;
       for (const TexturedBall& ball : balls) texels.push_back(texel_at(ball, point));
       const Mixture mixture = mixture_for(texels, sampling.samples);
       const PixelSampler sampler(mixture, point, sampling.shares_directions ? 0 : *place);
       BallPixel pixel{sampler, balls, texels, std::vector<Rgb>(balls.size())};
-      add_light(environment, mixture, pixel);
+      add_light(environment, pixel);
       for (std::size_t b = 0; b < balls.size(); ++b)
         for (std::size_t c = 0; c < 3; ++c)
           pictures[b][3 * static_cast<std::size_t>(place - pixels.begin()) + c] =

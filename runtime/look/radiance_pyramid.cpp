@@ -86,7 +86,7 @@ double share_above(const float* rgb, double threshold) {
 
 Spot spot_at(const Image& map, int row, int column, double threshold) {
   Spot spot{row, column, {}, 0.0};
-  Direction middle;
+  Vector3 middle;
   for (int r = row; r < row + kLampTexels; ++r)
     for (int c = column; c < column + kLampTexels; ++c) {
       const float* texel = &map.values[3 * static_cast<std::size_t>(r * map.width + c)];
@@ -94,7 +94,7 @@ Spot spot_at(const Image& map, int row, int column, double threshold) {
           2.0 * pi / map.width * (std::cos(pi * r / map.height) - std::cos(pi * (r + 1) / map.height));
       const double share = share_above(texel, threshold) * solid_angle;
       const double weight = share * luminance(texel);
-      const Direction w = map_direction({(c + 0.5) / map.width, (r + 0.5) / map.height});
+      const Vector3 w = map_direction({(c + 0.5) / map.width, (r + 0.5) / map.height});
       middle = {middle.x + weight * w.x, middle.y + weight * w.y, middle.z + weight * w.z};
       for (std::size_t k = 0; k < 3; ++k) spot.lamp.flux[k] += share * static_cast<double>(texel[k]);
       spot.luminance += weight;
@@ -175,7 +175,7 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
     radiance[k] += (wa * a[k] + wb * b[k]) + (wc * c[k] + wd * d[k]);
 }
 
-void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
+void RadiancePyramid::look_up(const Vector3& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
   // This is the size of a texel at the horizon of the finest level. Each level has four times the solid angle
   // of the previous level. Krivanek and Colbert choose a coarser level, to get smooth pictures from few

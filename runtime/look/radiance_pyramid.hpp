@@ -12,7 +12,7 @@ namespace remap {
 
 // A Lamp is a bright spot of an environment that is small enough to be treated as one direction.
 struct Lamp {
-  Direction direction;
+  Vector3 direction;
   Rgb flux{};  // radiance times solid angle
 };
 
@@ -35,7 +35,7 @@ class RadiancePyramid {
   // Writes the radiance without lamps from `direction` to `radiance`, one float for each channel. It is
   // averaged over about `solid_angle` (steradian, > 0). Interpolation is trilinear, and exact for constant
   // environments.
-  void look_up(const Direction& direction, double solid_angle, float* radiance) const;
+  void look_up(const Vector3& direction, double solid_angle, float* radiance) const;
 
  private:
   struct Level {

@@ -20,33 +20,33 @@ constexpr double kShadowOffset = 1e-6;
 const double kSine = std::sin(kTorusTilt * std::numbers::pi / 180.0);
 const double kCosine = std::cos(kTorusTilt * std::numbers::pi / 180.0);
 
-double length(const SurfacePoint& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double length(const Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-SurfacePoint along(const SurfacePoint& origin, const SurfacePoint& direction, double t) {
+Vector3 along(const Vector3& origin, const Vector3& direction, double t) {
   return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
 }
 
-SurfacePoint unit_vector(const SurfacePoint& v) {
+Vector3 unit_vector(const Vector3& v) {
   const double scale = 1.0 / length(v);
   return {v.x * scale, v.y * scale, v.z * scale};
 }
 
 // Returns the closest point of the circle that runs inside the torus, in the middle of its tube.
-SurfacePoint tube_middle(const SurfacePoint& p) {
+Vector3 tube_middle(const Vector3& p) {
   const double height = p.y * kSine + p.z * kCosine;  // along the axis
-  const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
+  const Vector3 flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
   const double radius = std::max(length(flat), 1e-12);
   return along({0.0, 0.0, 0.0}, flat, kTorusRadius / radius);
 }
 
-double torus_distance(const SurfacePoint& p) {
-  const SurfacePoint middle = tube_middle(p);
+double torus_distance(const Vector3& p) {
+  const Vector3 middle = tube_middle(p);
   return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
 }
 
 // Traces spheres (Hart 1996). A step is as long as the distance to the surface, so it never passes the
 // surface. Returns the distance along the ray, or a negative number if the ray hits nothing before `end`.
-double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
+double march(const Vector3& origin, const Vector3& direction, double start, double end) {
   double t = start;
   for (int step = 0; step < kMostSteps && t < end; ++step) {
     const double distance = torus_distance(along(origin, direction, t));
@@ -57,12 +57,12 @@ double march(const SurfacePoint& origin, const SurfacePoint& direction, double s
 }
 
 bool torus_point(int resolution, double column, double row, SurfaceHit* hit) {
-  const SurfacePoint camera = {0.0, 0.0, kCameraDistance};
-  const SurfacePoint direction = unit_vector(camera_ray(resolution, column, row));
+  const Vector3 camera = {0.0, 0.0, kCameraDistance};
+  const Vector3 direction = unit_vector(camera_ray(resolution, column, row));
   const double t = march(camera, direction, kCameraDistance - 1.0, kCameraDistance + 1.0);
   if (t < 0.0) return false;
   hit->position = along(camera, direction, t);
-  const SurfacePoint middle = tube_middle(hit->position);
+  const Vector3 middle = tube_middle(hit->position);
   hit->normal =
       unit_vector({hit->position.x - middle.x, hit->position.y - middle.y, hit->position.z - middle.z});
   return true;
@@ -76,15 +76,15 @@ std::string light_name(const Light& light) {
   return name;
 }
 
-SurfacePoint camera_ray(int resolution, double column, double row) {
+Vector3 camera_ray(int resolution, double column, double row) {
   // The edge of the picture touches the sphere: tan(asin(1 / distance)).
   const double half_extent = 1.0 / std::sqrt(kCameraDistance * kCameraDistance - 1.0);
   return {(2.0 * column / resolution - 1.0) * half_extent, (1.0 - 2.0 * row / resolution) * half_extent,
           -1.0};
 }
 
-bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
-  const SurfacePoint ray = camera_ray(resolution, column, row);
+bool sphere_point(int resolution, double column, double row, Vector3* point) {
+  const Vector3 ray = camera_ray(resolution, column, row);
   const double dx = ray.x, dy = ray.y;
   // Intersect the ray (0, 0, d) + t (dx, dy, -1) with x^2 + y^2 + z^2 = 1. The smaller root is visible.
   const double a = dx * dx + dy * dy + 1.0;
@@ -105,7 +105,7 @@ std::vector<float> view_cosines(int resolution, int samples_per_axis) {
       double sum = 0.0;
       for (int v = 0; v < samples_per_axis; ++v) {
         for (int u = 0; u < samples_per_axis; ++u) {
-          SurfacePoint p;
+          Vector3 p;
           if (!sphere_point(resolution, column + (u + 0.5) * step, row + (v + 0.5) * step, &p)) continue;
           const double to_camera = kCameraDistance - p.z;
           const double distance = std::sqrt(p.x * p.x + p.y * p.y + to_camera * to_camera);
@@ -125,10 +125,10 @@ bool shape_point(Shape shape, int resolution, double column, double row, Surface
   return true;
 }
 
-bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light) {
+bool is_shadowed(Shape shape, const SurfaceHit& hit, const Vector3& light) {
   if (shape == Shape::kSphere) return false;
-  const SurfacePoint origin = along(hit.position, hit.normal, kShadowOffset);
-  const SurfacePoint way = {light.x - origin.x, light.y - origin.y, light.z - origin.z};
+  const Vector3 origin = along(hit.position, hit.normal, kShadowOffset);
+  const Vector3 way = {light.x - origin.x, light.y - origin.y, light.z - origin.z};
   return march(origin, unit_vector(way), 0.0, length(way)) >= 0.0;
 }
 

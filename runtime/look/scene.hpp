@@ -14,6 +14,12 @@ namespace remap {
 
 inline constexpr double kCameraDistance = 3.0;
 
+// A Vector3 is a point or a direction in world space, which is also view space: x points right, y up, and the
+// camera is on +z. On the unit sphere, the position is also the normal.
+struct Vector3 {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
 // A Light is a point light of unit intensity. `angle` is measured in degrees at the sphere, from the camera
 // about the vertical axis (0: headlight). `distance` is measured from the origin in sphere radii (> 1).
 struct Light {
@@ -42,18 +48,13 @@ struct Scene {
 // Returns `headlight` for a light at the camera. Otherwise returns degrees, with the distance if it is not 3.
 std::string light_name(const Light& light);
 
-// A SurfacePoint is a point or direction in world space. World space is view space, with the camera on +z.
-struct SurfacePoint {
-  double x, y, z;  // on the unit sphere, the position is also the normal
-};
-
 // Returns the direction, not normalised, of the camera's ray through the image at (column, row), in pixels
 // from the top left corner.
-SurfacePoint camera_ray(int resolution, double column, double row);
+Vector3 camera_ray(int resolution, double column, double row);
 
 // Intersects the ray through the image at (column, row), in pixels from the top left corner, with the sphere.
 // Returns false if it misses.
-bool sphere_point(int resolution, double column, double row, SurfacePoint* point);
+bool sphere_point(int resolution, double column, double row, Vector3* point);
 
 // Returns cos(normal, view) of each pixel, averaged over its samples, and 0 if the pixel does not show the
 // sphere. The values are row-major, resolution^2.
@@ -69,8 +70,8 @@ inline constexpr double kTubeRadius = 0.3;
 inline constexpr double kTorusTilt = 40.0;  // degrees from +z to +y
 
 struct SurfaceHit {
-  SurfacePoint position;
-  SurfacePoint normal;
+  Vector3 position;
+  Vector3 normal;
 };
 
 // Intersects the ray through the image at (column, row), like sphere_point(), with the shape. Returns false
@@ -79,7 +80,7 @@ bool shape_point(Shape shape, int resolution, double column, double row, Surface
 
 // Returns true if the shape casts a shadow on its own point, for a light at `light`. This is always false for
 // the sphere. A sphere is dark where the light is below the horizon, which this function does not test.
-bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
+bool is_shadowed(Shape shape, const SurfaceHit& hit, const Vector3& light);
 
 // Returns the indices, row by row, of the pixels whose centres show the shape.
 std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution);

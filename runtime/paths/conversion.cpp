@@ -267,30 +267,30 @@ WorkflowStages stages_of(const ConversionChoice& choice, const Converter* brdf) 
 namespace {
 
 // Adds the stages of the workflows around the BRDF.
-BuiltConversion with_material(const ConversionChoice& choice, BuiltConversion conversion,
-                              InstructionSet set) {
+BuiltConversion with_material(BuiltConversion conversion, InstructionSet set) {
   if (conversion.brdf != nullptr && !conversion.brdf->self_test())
     throw Error(ErrorKind::kNumeric,
                 conversion.brdf->info().id + ": self-test failed (results would be wrong)");
-  if (choice.is_material())
-    conversion.material = make_workflow_converter(stages_of(choice, conversion.brdf), set);
+  if (conversion.choice.is_material())
+    conversion.material = make_workflow_converter(stages_of(conversion.choice, conversion.brdf), set);
   return conversion;
 }
 
 }  // namespace
 
-BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr<Converter> brdf) {
+BuiltConversion build_conversion(ConversionChoice choice, std::unique_ptr<Converter> brdf) {
   const InstructionSet set = brdf->info().instructions;
-  BuiltConversion conversion;
+  BuiltConversion conversion{std::move(choice)};
   conversion.owned_brdf = std::move(brdf);
   conversion.brdf = conversion.owned_brdf.get();
   conversion.path = {{conversion.brdf}, expected_error(conversion.brdf->info())};
-  return with_material(choice, std::move(conversion), set);
+  return with_material(std::move(conversion), set);
 }
 
-BuiltConversion build_conversion(const ConversionChoice& choice, const std::vector<std::string>& via,
+BuiltConversion build_conversion(ConversionChoice chosen, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set) {
-  BuiltConversion conversion;
+  BuiltConversion conversion{std::move(chosen)};
+  const ConversionChoice& choice = conversion.choice;
   if (choice.translation) {
     conversion.material =
         make_translation_converter(*choice.translation, ends_of(stages_of(choice, nullptr), set));
@@ -304,7 +304,7 @@ BuiltConversion build_conversion(const ConversionChoice& choice, const std::vect
       conversion.owned_brdf = make_chained_converter(conversion.path.steps);
     conversion.brdf = conversion.owned_brdf ? conversion.owned_brdf.get() : conversion.path.steps.front();
   }
-  return with_material(choice, std::move(conversion), set);
+  return with_material(std::move(conversion), set);
 }
 
 ConversionChoice choice_of_warp(const WarpMapFit& warp, WorkflowKind source, RoughnessEncoding width) {

@@ -51,8 +51,8 @@ double expected_error(const ConverterInfo& info) {
   return std::sqrt(image * image + 2.0 * alpha * alpha + specular * specular);
 }
 
-std::optional<PathDifference> picture_difference(const ConverterPath& path) {
-  PathDifference difference;
+std::optional<PictureDifference> picture_difference(const ConverterPath& path) {
+  PictureDifference difference;
   double squares = 0.0;
   for (const Converter* step : path.steps) {
     const ConverterInfo& info = step->info();

@@ -68,7 +68,7 @@ FoundMap found_map(const fs::path& folder, const NamedMap& map) {
                  false,
                  has_roughness_or_specular(reading.meaning)};
   for (const int number : map.files.numbers)
-    found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
+    found.tiles[number] = folder / tile_name(*map.files.pattern, number);
   return found;
 }
 

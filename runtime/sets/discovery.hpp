@@ -20,7 +20,7 @@ namespace remap {
 struct FoundMap {
   std::filesystem::path path;          // relative to the root; `<UDIM>` in the name if the map has tiles
   std::optional<TilePattern> pattern;  // pattern of the file name
-  std::vector<Tile> tiles;  // paths relative to the root, sorted by number; empty for a single file
+  Tiles tiles;                         // paths relative to the root; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
   bool is_repeated = false;   // another map of the set provides one of its parameters

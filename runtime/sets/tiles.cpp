@@ -169,7 +169,7 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
   return number;
 }
 
-std::vector<Tile> existing_tiles(const fs::path& path) {
+Tiles existing_tiles(const fs::path& path) {
   const std::optional<TilePattern> pattern = tile_pattern(path.filename().string());
   if (!pattern)
     throw Error(ErrorKind::kUsage,
@@ -181,18 +181,17 @@ std::vector<Tile> existing_tiles(const fs::path& path) {
       throw Error(ErrorKind::kUsage, display_path(path) + ": " + std::string(token) +
                                          " in a folder name (use it in the file name)");
 
-  std::vector<Tile> tiles;
+  Tiles tiles;
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
        entry.increment(failure)) {
     const std::string name = entry->path().filename().string();
     const std::optional<int> number = tile_number(*pattern, name);
     std::error_code unreadable;
-    if (number && entry->is_regular_file(unreadable)) tiles.push_back({*number, path.parent_path() / name});
+    if (number && entry->is_regular_file(unreadable)) tiles[*number] = path.parent_path() / name;
   }
   if (failure)
     throw Error(ErrorKind::kInput, display_path(folder) + ": cannot be read: " + failure.message());
-  std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.number < b.number; });
   return tiles;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,13 +30,7 @@ struct TilePattern {
   bool operator==(const TilePattern&) const = default;
 };
 
-// A Tile is one file of a tiled map.
-struct Tile {
-  int number = 0;  // UDIM or frame
-  std::filesystem::path path;
-
-  bool operator==(const Tile&) const = default;
-};
+using Tiles = std::map<int, std::filesystem::path>;  // files of a tiled map by their UDIM or frame
 
 // Returns the pattern of `name`, a file name without folder, or nothing if it has no placeholder. A real file
 // may be called C#.png, so call this only if no such file exists. Throws kUsage for several placeholders.
@@ -49,7 +44,7 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
 
 // Returns the existing tiles of `path`, a folder and a pattern, by number. Throws kUsage if the file name has
 // no placeholder or a folder name has one, and kInput if the folder cannot be read.
-std::vector<Tile> existing_tiles(const std::filesystem::path& path);
+Tiles existing_tiles(const std::filesystem::path& path);
 
 // A TileGroup is the files of one folder that form one map.
 struct TileGroup {

@@ -9,9 +9,8 @@ namespace {
 
 constexpr std::size_t kLanes = 4;  // number of dimensions, filled with zeros
 
-PackedSeparable packed_terms(const AppearanceCoordinates& space, const SeparableTerms& terms) {
+void pack_terms(const AppearanceCoordinates& space, const SeparableTerms& terms, PackedWarp& result) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);
-  PackedSeparable result;
   result.last_width = static_cast<std::int32_t>(nodes) - 2;
   result.diffuse.resize(3 * kLanes);
   result.width_nodes.resize(nodes * 4 * kLanes);
@@ -23,12 +22,9 @@ PackedSeparable packed_terms(const AppearanceCoordinates& space, const Separable
     }
   for (std::size_t i = 0; i < nodes; ++i)
     std::copy_n(&terms.offset[i * n], n, &result.width_nodes[(4 * i + 3) * kLanes]);
-  return result;
 }
-PackedQuadratic packed_terms(const AppearanceCoordinates&, const QuadraticTerms& terms) {
-  PackedQuadratic result;
+void pack_terms(const AppearanceCoordinates&, const QuadraticTerms& terms, PackedWarp& result) {
   result.weights = terms.weights;
-  return result;
 }
 
 // Returns the number of steps from the least alpha to the largest alpha.
@@ -37,22 +33,18 @@ float width_places(const AppearanceCoordinates& space, const SeparableTerms& ter
 }
 float width_places(const AppearanceCoordinates&, const QuadraticTerms&) { return 1.0f; }
 
-PackedBlended packed_entries(const BlendedNodes& entries) {
-  PackedBlended result;
+void pack_entries(const BlendedNodes& entries, PackedWarp& result) {
   const std::size_t nodes = entries.codes.size() / kWarpParameters;
   result.entries.resize(nodes * warp_code::kEntryLanes);
   warp_code::decode_entries(entries.codes.data(), nodes, entries.least.data(), entries.largest.data(),
                             result.entries.data());
-  return result;
 }
-PackedCopied packed_entries(const CopiedNodes& entries) {
-  PackedCopied result;
+void pack_entries(const CopiedNodes& entries, PackedWarp& result) {
   result.indices = entries.indices;
   result.palette.reserve(entries.palette.size() * kWarpParameters + 1);
   for (const WarpTexel& texel : entries.palette)
     result.palette.insert(result.palette.end(), texel.begin(), texel.end());
   result.palette.push_back(0.0f);
-  return result;
 }
 
 }  // namespace
@@ -69,7 +61,7 @@ PackedWarp packed(const CompiledWarp& warp) {
   std::visit(
       [&](const auto& terms) {
         result.width_scale = width_places(space, terms) / widths;
-        result.coordinates = packed_terms(space, terms);
+        pack_terms(space, terms, result);
       },
       space.terms);
   result.nodes = static_cast<std::int32_t>(table.nodes);
@@ -77,7 +69,7 @@ PackedWarp packed(const CompiledWarp& warp) {
     result.low[k] = table.low[k];
     result.scale[k] = static_cast<float>(table.nodes - 1) / (table.high[k] - table.low[k]);
   }
-  std::visit([&](const auto& entries) { result.table = packed_entries(entries); }, table.entries);
+  std::visit([&](const auto& entries) { pack_entries(entries, result); }, table.entries);
   return result;
 }
 

@@ -84,16 +84,11 @@ struct Picture {
   std::vector<float> values;          // interleaved, row-major from the top
 };
 
-struct ImageLimits {
-  int threads = 0;                 // at least 1: threads of this process; 0: automatic
-  std::uint64_t memory_bytes = 0;  // limit for one image's texels; 0: automatic
-};
-
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
-  // Sets limits for images that are opened later.
-  virtual void set_limits(const ImageLimits& limits) const = 0;
+  // Does what set_image_limits() describes.
+  virtual void set_limits(int threads, std::uint64_t memory_bytes) const = 0;
   // Opens a part of `path`, which must be a regular file.
   virtual std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const = 0;
   // Opens a part of a file that is already open. A host that can open files only by name opens it by its
@@ -130,7 +125,8 @@ const ImageLibrary& load_image_library();
 // threads may call this.
 const ImageLibrary& image_library();
 
-// Sets limits for images that are opened later. Does not load the library.
-void set_image_limits(const ImageLimits& limits);
+// Sets limits for images that are opened later: the threads of this process, and the memory for one image's
+// texels. A limit of 0 is automatic. Does not load the library.
+void set_image_limits(int threads, std::uint64_t memory_bytes);
 
 }  // namespace remap

@@ -30,10 +30,9 @@ std::vector<float> values_of(const TextureSet& set, const StoredRows& rows, cons
 void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSample& sample) {
   std::vector<float> coverage;
   if (set.coverage) coverage = values_of(set, rows, *set.coverage, step);
-  std::size_t added = 0;
   for (const auto& [parameter, values] : set.parameters) {
     const std::size_t count = is_color(parameter) ? values.channel_count() : 1;
-    auto& own = sample.rows[parameter];
+    auto& own = sample[parameter];
     own.resize(count);
     for (std::size_t c = 0; c < count; ++c) {
       const ImageLayout& layout = set.maps[set.first_map()].layout();
@@ -42,13 +41,10 @@ void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSa
       if (values.is_map()) row = values_of(set, rows, values.channels[c], step);
       if (values.is_map()) to_linear(values.transfer, row);
       const float factor = values.factor(c);
-      const std::size_t before = own[c].size();
       for (std::size_t i = 0; i < row.size(); ++i)
         if (coverage.empty() || coverage[i] > 0.0f) own[c].push_back(row[i] * factor);
-      added = own[c].size() - before;
     }
   }
-  sample.texel_count += added;
 }
 
 }  // namespace
@@ -77,20 +73,21 @@ MaterialSample sample_materials(TextureSet& set) {
 
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessEncoding width) {
-  if (sample.texel_count == 0) return std::nullopt;
+  const std::size_t texels = sample.at(Parameter::kRoughness).front().size();
+  if (texels == 0) return std::nullopt;
   const SpecularWorkflow plain;
   WorkflowStages to_plain = stages;
   to_plain.target = plain;
   const auto converter = make_workflow_converter(to_plain, InstructionSet::kBaseline);
-  const std::size_t every = std::max<std::size_t>(1, sample.texel_count / kEstimatedTexels);
-  std::vector<SpecularMaterial> materials((sample.texel_count + every - 1) / every);
+  const std::size_t every = std::max<std::size_t>(1, texels / kEstimatedTexels);
+  std::vector<SpecularMaterial> materials((texels + every - 1) / every);
   MapConversion maps;
   maps.width = materials.size();
   maps.height = 1;
   maps.source_convention = width;
   maps.target_convention = RoughnessEncoding::kAlpha;
   for (const Parameter parameter : converter->sources())
-    for (const std::vector<float>& row : sample.rows.at(parameter))
+    for (const std::vector<float>& row : sample.at(parameter))
       maps.sources[parameter].channels.push_back(float_channel(row.data(), maps.width, every));
   const auto add_target = [&](Parameter parameter, float& first) {
     constexpr std::size_t kFloats = sizeof(SpecularMaterial) / sizeof(float);

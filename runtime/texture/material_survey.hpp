@@ -13,10 +13,7 @@ namespace remap {
 
 // A MaterialSample holds texels of a grid over the whole picture, without transparent ones. Each parameter
 // has one or three rows of linear values, with factors applied. Roughness has the encoding of the maps.
-struct MaterialSample {
-  std::size_t texel_count = 0;
-  std::map<Parameter, std::vector<std::vector<float>>> rows;
-};
+using MaterialSample = std::map<Parameter, std::vector<std::vector<float>>>;
 
 // Samples about 4000 texels in 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);

@@ -80,17 +80,32 @@ bool has_negative(ImageReader& image) {
   return found;
 }
 
-}  // namespace
-
-std::optional<StatedGreen> stated_green(const std::string& name) {
+// Calls `take(words, way, at)` for the first word of a name that states a direction: its row and column in
+// kGreenWords, and its place in the name.
+void for_green_word(const std::string& name, const auto& take) {
   for (const auto& words : kGreenWords)
     for (const std::size_t way : {0u, 1u})
       for (std::size_t at = name.find(words[way]); at != std::string::npos;
            at = name.find(words[way], at + 1))
-        if (is_green_word(name, at, words[way].size()))
-          return StatedGreen{way == 0 ? NormalGreen::kUp : NormalGreen::kDown,
-                             std::string(name).replace(at, words[way].size(), words[1 - way])};
-  return std::nullopt;
+        if (is_green_word(name, at, words[way].size())) return take(words, way, at);
+}
+
+}  // namespace
+
+std::optional<NormalGreen> stated_green(const std::string& name) {
+  std::optional<NormalGreen> green;
+  for_green_word(name, [&](const auto&, std::size_t way, std::size_t) {
+    green = way == 0 ? NormalGreen::kUp : NormalGreen::kDown;
+  });
+  return green;
+}
+
+std::string turned_name(const std::string& name) {
+  std::string turned = name;
+  for_green_word(name, [&](const auto& words, std::size_t way, std::size_t at) {
+    turned.replace(at, words[way].size(), words[1 - way]);
+  });
+  return turned;
 }
 
 std::unique_ptr<NewImage> turned_copy(const std::shared_ptr<const InputFile>& from,

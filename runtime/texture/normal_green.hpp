@@ -13,14 +13,11 @@ namespace remap {
 
 enum class NormalGreen { kUp, kDown };
 
-// A StatedGreen is the direction that the name of a normal map states, and the name of the same map with
-// inverted green. For example, `wood_nor_gl_4k.png` becomes `wood_nor_dx_4k.png`.
-struct StatedGreen {
-  NormalGreen green = NormalGreen::kUp;
-  std::string turned_name;
-};
-// Returns nothing if the name has none of the words OpenGL, DirectX, GL and DX.
-std::optional<StatedGreen> stated_green(const std::string& name);
+// Returns the direction that the name of a normal map states, or nothing if the name has none of the words
+// OpenGL, DirectX, GL and DX.
+std::optional<NormalGreen> stated_green(const std::string& name);
+// Returns the name of the same map with the other direction, or `name` if it states none.
+std::string turned_name(const std::string& name);
 
 // Returns a finished copy with green replaced by 1 - green, or by -green if values have a sign. The copy does
 // not have its name `to` yet. Everything else is copied from `from`. Throws kInput if `from` cannot be read

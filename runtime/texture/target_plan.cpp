@@ -47,15 +47,15 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
       throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder");
   std::vector<fs::path> results;
-  for (const PlannedMap& map : plan.maps) results.push_back(map.path);
-  for (const PlannedCopy& copy : plan.copies) results.push_back(copy.path);
+  for (const PlannedFile& map : plan.maps) results.push_back(map.path);
+  for (const PlannedFile& copy : plan.copies) results.push_back(copy.path);
   for (std::size_t i = 0; i < results.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       if (results[i] == results[k])
         throw Error(ErrorKind::kUsage,
                     results[i].string() + ": two results have this name (rename an input)");
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
-    for (const PlannedCopy& copy : plan.copies) require_safe(results[i], copy.source);
+    for (const PlannedFile& copy : plan.copies) require_safe(results[i], copy.source);
   }
 }
 
@@ -142,8 +142,8 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
 }
 
 // Returns a new map for a parameter that has no file of its own in the set.
-PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
-                   std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
+PlannedFile new_map(const std::string& name, const std::vector<std::string>& channel_names,
+                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
   part.changes.channels = channel_names;
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
@@ -160,7 +160,7 @@ std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter param
   return channels;
 }
 
-PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+PlannedFile color_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   std::vector<TargetChannel> channels = color_channels(set, parameter, choice);
   std::vector<std::string> names = channels.size() == 1 ? kGrey : kColor;
   const bool has_coverage = parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor;
@@ -168,7 +168,7 @@ PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetCho
     channels.push_back(*set.coverage);
     names.push_back("A");
   }
-  PlannedMap planned =
+  PlannedFile planned =
       new_map(file_name(parameter, choice, choice.names), names, std::move(channels), set, choice);
   if (const SetParameter* model = model_of(set, parameter))
     planned.parts.front().model = model->channels.front().map;
@@ -248,7 +248,7 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
   if (!fs::is_regular_file(source, ignored))
     throw Error(ErrorKind::kInput,
                 source.string() + ": cannot be copied, because it is not a readable file (check the path)");
-  plan.copies.push_back({source, path, {}, turns_green});
+  plan.copies.push_back({path, {}, source, turns_green});
 }
 
 // Returns true if the chosen type and format can hold values above 1.
@@ -258,7 +258,7 @@ bool holds_floats(const TargetChoice& choice) {
          (is_float_type && (choice.extension == "exr" || choice.extension.starts_with("tif")));
 }
 
-PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+PlannedFile own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   const bool is_wide = std::ranges::find(choice.wide, parameter) != choice.wide.end();
   if (is_wide && !holds_floats(choice)) {
     TargetChoice floats = choice;
@@ -272,7 +272,7 @@ PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoic
 }
 
 // Returns the color of a file with one grey channel and nothing else, if the result must have three channels.
-std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
+std::optional<Parameter> grey_alone(const PlannedFile& planned, const TargetChoice& choice) {
   if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
   return channels.size() == 1 ? color_of(channels) : std::nullopt;
@@ -283,7 +283,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   std::vector<bool> seen(set.maps.size());
   for (std::size_t first = 0; first < set.maps.size(); ++first) {
     if (seen[first]) continue;
-    PlannedMap planned{result_path(set.maps[first].path().filename(), choice), {}};
+    PlannedFile planned{result_path(set.maps[first].path().filename(), choice), {}};
     bool holds_something = false;
     for (const std::size_t map : parts_of_file(set, first)) {
       seen[map] = true;
@@ -312,7 +312,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
                   "--" + carried.name +
                       ": --layout as-inputs cannot store a number (give a map, or use another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
-    const auto is_written = [&](const PlannedMap& map) {
+    const auto is_written = [&](const PlannedFile& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);
     };
     if (std::none_of(plan.maps.begin(), plan.maps.end(), is_written))
@@ -321,9 +321,9 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   return plan;
 }
 
-PlannedMap carried_map(const TextureSet& set, const Carried<SetParameter>& carried,
-                       const TargetChoice& choice) {
-  PlannedMap map =
+PlannedFile carried_map(const TextureSet& set, const Carried<SetParameter>& carried,
+                        const TargetChoice& choice) {
+  PlannedFile map =
       new_map(named(carried.name, choice.names), kGrey, {carried_channel(carried.parameter)}, set, choice);
   if (carried.parameter.is_map()) map.parts.front().model = carried.parameter.channels.front().map;
   return map;
@@ -345,7 +345,7 @@ void require_held(const TargetChoice& choice) {
                                          ", which would have an empty channel (remove one of the two)");
 }
 
-PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
+PlannedFile layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
   if (file.content.size() == 1)
     if (const auto* own = std::get_if<LayoutParameter>(&file.content.front()))
       return own_map(set, own->parameter, choice);
@@ -359,9 +359,9 @@ PlannedMap layout_map(const LayoutFile& file, const TextureSet& set, const Targe
 }
 
 // Returns the files of the layout, and a file for each parameter that has no place in them.
-std::vector<PlannedMap> layout_maps(const TextureSet& set, const TargetChoice& choice) {
+std::vector<PlannedFile> layout_maps(const TextureSet& set, const TargetChoice& choice) {
   require_held(choice);
-  std::vector<PlannedMap> all;
+  std::vector<PlannedFile> all;
   for (const LayoutFile& file : choice.layout.files)
     if (holds_something(file, set, choice)) all.push_back(layout_map(file, set, choice));
   for (const Parameter parameter : choice.parameters)
@@ -401,7 +401,7 @@ std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetCh
 }
 
 // Returns the file that a result would repeat. All its channels, their type and the format must be the same.
-std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& planned,
+std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedFile& planned,
                                       const TargetChoice& choice) {
   if (planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
@@ -421,7 +421,7 @@ std::optional<fs::path> repeated_file(const TextureSet& set, const PlannedMap& p
 }  // namespace
 
 void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
-  for (const PlannedMap& map : plan.maps)
+  for (const PlannedFile& map : plan.maps)
     for (const TargetPart& part : map.parts) {
       const PixelType own = set.maps[part.model].layout().channels.front().type;
       if (!is_integer(part.changes.type.value_or(own))) continue;
@@ -450,13 +450,13 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     fs::path& path = plan.maps.back().path;
     path = choice.diagnosis_folder / path.filename();
   }
-  for (PlannedMap& map : plan.maps)
+  for (PlannedFile& map : plan.maps)
     for (TargetPart& part : map.parts)
       if (const auto color = color_of(part.channels))
         part.changes.colors = color_storage(set, *color, choice);
-  std::erase_if(plan.maps, [&](const PlannedMap& map) {
+  std::erase_if(plan.maps, [&](const PlannedFile& map) {
     const std::optional<fs::path> file = repeated_file(set, map, choice);
-    if (file) plan.copies.push_back({*file, map.path, map.parts, false});
+    if (file) plan.copies.push_back({map.path, map.parts, *file});
     return file.has_value();
   });
   for (const CopiedFile& file : choice.copies) {
@@ -473,7 +473,7 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
 
 std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan) {
   std::vector<TargetMap> targets;
-  for (const PlannedMap& map : plan.maps) {
+  for (const PlannedFile& map : plan.maps) {
     create_parent(map.path);
     std::vector<NewPart> parts;
     for (const TargetPart& part : map.parts) parts.push_back({&set.maps[part.model].stored(), part.changes});

@@ -13,9 +13,13 @@
 
 namespace remap {
 
-struct PlannedMap {
+// A PlannedFile is a result. A copy has a source. Its parts are those of a result that repeats the source, or
+// none for a file that is not converted.
+struct PlannedFile {
   std::filesystem::path path;
   std::vector<TargetPart> parts;
+  std::filesystem::path source = {};
+  bool turns_green = false;
 };
 
 // A CopiedFile is a file of the material that is copied, not converted. It is copied byte for byte unless its
@@ -29,16 +33,9 @@ struct CopiedFile {
   std::string turned_name;
   std::string reason = {};  // why green is inverted, or kept although nothing is known; or empty
 };
-struct PlannedCopy {
-  std::filesystem::path source;
-  std::filesystem::path path;
-  std::vector<TargetPart> parts;  // parts of a result that repeats its source; empty for unconverted files
-  bool turns_green = false;
-};
-
 struct TargetPlan {
-  std::vector<PlannedMap> maps;
-  std::vector<PlannedCopy> copies;
+  std::vector<PlannedFile> maps;
+  std::vector<PlannedFile> copies;
   std::vector<std::string> unplaced;  // a message for each input channel without a place in the layout
 };
 
@@ -54,6 +51,7 @@ struct ResultNames {
 };
 
 struct TargetChoice {
+  MapTreatment treatment;  // its encoding of roughness is the one that the user chose
   std::filesystem::path folder;
   std::vector<Parameter> parameters = {Parameter::kRoughness, Parameter::kSpecular};  // parameters to write
   std::string width_name = "roughness";           // name of a separate roughness file

@@ -44,9 +44,9 @@ struct PassOptions : MapTreatment {
   // This is the largest size of a band, unless whole tiles need more. Two bands are in memory at once, or
   // three if pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
-  std::function<void(double share_done)> progress;
+  std::function<void(double share_done)> progress = {};
   // Gives the finished files their final names. By default, this calls NewImage::commit() for each file.
-  std::function<void(std::vector<TargetMap>& finished)> commit;
+  std::function<void(std::vector<TargetMap>& finished)> commit = {};
   const std::atomic<bool>* cancelled = nullptr;  // checked between bands
 };
 

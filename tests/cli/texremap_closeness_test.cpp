@@ -37,9 +37,9 @@ nlohmann::json json_of(const ProcessResult& result) {
 
 // Returns the text that the pictures recorded in a fit give.
 std::string measured_text(const std::string& id) {
-  const JudgedPictures pictures = load_fit(REMAP_SOURCE_DIR "/fits/" + id + ".json").pictures.value();
+  const Fit fit = load_fit(REMAP_SOURCE_DIR "/fits/" + id + ".json");
   const auto percent = [](double rmse) { return fixed(rmse, 1) + " %"; };
-  return kDiffer + percent(pictures.converted.rmse) + " (" + percent(pictures.copied.rmse) +
+  return kDiffer + percent(fit.pictures.value().rmse) + " (" + percent(fit.copied_pictures.value().rmse) +
          " with copied numbers)";
 }
 

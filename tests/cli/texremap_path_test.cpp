@@ -23,8 +23,8 @@ const std::string kId = "mitsuba_ward_to_mitsuba_as";
 // numbers)`.
 std::string ward_to_as_difference() {
   const PictureDifference pictures = find_converter("mitsuba/ward", "mitsuba/as").info().pictures.value();
-  return "rendered pictures differ by " + fixed(pictures.converted, 1) + " % (" + fixed(pictures.copied, 1) +
-         " % with copied numbers)\n";
+  return "rendered pictures differ by " + fixed(pictures.converted, 1) + " % (" +
+         fixed(pictures.copied.value(), 1) + " % with copied numbers)\n";
 }
 
 double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }

@@ -23,7 +23,7 @@ void write_again(const fs::path& file) {
     for (const auto& [name, size] : sizes) all[place_of(name)] = size;
     return all;
   };
-  const remap::ListedSizes sizes = placed(read.listing.found.sizes);
+  const remap::ListedSizes sizes = placed(read.found.sizes);
   for (const auto& [name, size] : sizes)
     // the name leads out of the tree
     if (name.lexically_relative(root / "tree").string().starts_with("..")) std::abort();
@@ -31,11 +31,11 @@ void write_again(const fs::path& file) {
   remap::read_or_refuse([&] { remap::require_as_listed(sizes); });  // none of the files exists yet
   for (const auto& [name, size] : sizes) remap::write_file(name, "x", remap::Flush::kNo);
   remap::read_or_refuse([&] { remap::require_as_listed(sizes); });
-  const std::size_t problems = read.listing.found.problems.size();
-  const remap::ManifestHead head = remap::write_manifest(root / "m.jsonl", root / "tree", "", read.listing);
+  const std::size_t problems = read.found.problems.size();
+  const remap::ManifestHead head = remap::write_manifest(root / "m.jsonl", root / "tree", "", read);
   const remap::TreeManifest again = remap::read_manifest(root / "m.jsonl", {1, 1});
-  if (again.costs.size() != head.count || again.listing.found.problems.size() < problems) std::abort();
-  remap::require_as_listed(placed(again.listing.found.sizes));
+  if (again.costs.size() != head.count || again.found.problems.size() < problems) std::abort();
+  remap::require_as_listed(placed(again.found.sizes));
   fs::remove_all(root);
 }
 

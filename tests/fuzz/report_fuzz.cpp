@@ -12,13 +12,13 @@
 namespace {
 
 void write_again(const std::filesystem::path& output, std::string_view lines) {
-  const remap::GivenPart part{{3, 3}, ""};
+  const remap::Part part{3, 3};
   remap::ConversionNote note;
   note.details = {{"version", "0.1.0"}};
   std::string report = remap::part_json(part, remap::ManifestHead(), note).dump() + "\n";
   for (const std::string& line : remap::parts_between(lines, '\n'))
     remap::read_or_refuse([&] { report += remap::parse_json(line, "line").dump() + "\n"; });
-  remap::write_part_report(output, part.part, report);
+  remap::write_part_report(output, part, report);
 }
 
 }  // namespace

@@ -55,13 +55,8 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
   return rows;
 }
 
-// A FamilyDeviation is the RMS deviation of a table from equation (2), in F0 and diffuse.
-struct FamilyDeviation {
-  double dielectric_f0 = 0.0;  // the value that fits the rows best, to six digits
-  double f0 = 0.0, diffuse = 0.0;
-};
-
-FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
+// Returns the F0 of dielectrics that fits equation (2) to the rows best, to six digits.
+double dielectric_f0_of(const std::vector<MaterialRow>& rows) {
   double products = 0.0, squares = 0.0;
   for (const MaterialRow& row : rows)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -69,20 +64,17 @@ FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
       products += (1.0 - metal) * (row.specular[3 + c] - row.metallic[c] * metal);
       squares += (1.0 - metal) * (1.0 - metal);
     }
-  FamilyDeviation deviation;
-  deviation.dielectric_f0 = squares > 0.0 ? rounded(products / squares, 6) : 0.0;
+  return squares > 0.0 ? rounded(products / squares, 6) : 0.0;
+}
+
+// Returns the RMS deviation of a quantity from equation (2). Its channels begin at `first` of
+// MaterialRow::specular, and `expected` returns its value for a base color and metallic.
+double deviation_of(const std::vector<MaterialRow>& rows, std::size_t first, const auto& expected) {
+  double square = 0.0;
   for (const MaterialRow& row : rows)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double metal = row.metallic[3], base = row.metallic[c];
-      const double f0 = deviation.dielectric_f0 * (1.0 - metal) + base * metal,
-                   diffuse = base * (1.0 - metal);
-      deviation.f0 += std::pow(row.specular[3 + c] - f0, 2);
-      deviation.diffuse += std::pow(row.specular[c] - diffuse, 2);
-    }
-  const double count = 3.0 * static_cast<double>(rows.size());
-  deviation.f0 = std::sqrt(deviation.f0 / count);
-  deviation.diffuse = std::sqrt(deviation.diffuse / count);
-  return deviation;
+    for (std::size_t c = 0; c < 3; ++c)
+      square += std::pow(row.specular[first + c] - expected(row.metallic[c], row.metallic[3]), 2);
+  return std::sqrt(square / (3.0 * static_cast<double>(rows.size())));
 }
 
 std::string comment_of(const MaterialTable& table, const std::string& key) {
@@ -149,14 +141,18 @@ void judge(const Network& network, std::span<const MaterialRow> rows, NetworkTra
 WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
                                  const MaterialNetworkOptions& options, const FitProgress& progress) {
   const std::vector<MaterialRow> rows = material_rows(table);
-  const FamilyDeviation deviation = deviation_of(rows);
-  if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
+  const double dielectric_f0 = dielectric_f0_of(rows);
+  const double diffuse_deviation =
+      deviation_of(rows, 0, [](double base, double metal) { return base * (1.0 - metal); });
+  const double f0_deviation = deviation_of(
+      rows, 3, [&](double base, double metal) { return dielectric_f0 * (1.0 - metal) + base * metal; });
+  if (f0_deviation > kLargestDeviation || diffuse_deviation > kLargestDeviation)
     throw input_error(table.name + ": rows differ from equation (2) by " +
-                      number_text(std::max(deviation.f0, deviation.diffuse)) + " (rms), more than " +
+                      number_text(std::max(f0_deviation, diffuse_deviation)) + " (rms), more than " +
                       number_text(kLargestDeviation) +
                       " (both models must have the same BRDF and plain diffuse)");
   WorkflowFit fit;
-  fit.conversion = conversion_of(table, deviation.dielectric_f0);
+  fit.conversion = conversion_of(table, dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
   const Split split = split_of(table, rows.size(), options);
   const std::vector<MaterialRow> drawn = in_seeded_order(rows, options.seed);
@@ -167,7 +163,7 @@ WorkflowFit fit_material_network(const MaterialTable& table, std::string_view by
   fit.training.emplace();
   fit.training->method["network"] = trained.method;
   fit.training->method["table_against_equation_2"] =
-      "rms of f0 " + error_text(deviation.f0) + ", of diffuse " + error_text(deviation.diffuse);
+      "rms of f0 " + error_text(f0_deviation) + ", of diffuse " + error_text(diffuse_deviation);
   judge(trained.network, held_out, &*fit.training);
   fit.training->split = split;
   fit.training->table = table_record(table.name, bytes, table.comments);

@@ -10,6 +10,8 @@
 
 #include <ceres/ceres.h>
 
+#include "measure/function_cost.hpp"
+
 namespace remap {
 namespace {
 
@@ -17,26 +19,38 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A ValidationWatch keeps the parameters with the least validation error and decides when to stop.
-class ValidationWatch {
+// A ValidationWatch looks at the parameters after each iteration of a training. It keeps those with the least
+// validation error. It ends the training if this error no longer improves, or if the caller wants to stop.
+class ValidationWatch : public ceres::IterationCallback {
  public:
-  ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const OptimiserSettings& settings)
+  ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& parameters,
+                  const OptimiserSettings& settings, const StepReport& report)
       : batch_(shape, samples.validation_inputs),
         expected_(samples.validation_outputs),
-        patience_(settings.patience) {
+        parameters_(parameters),
+        settings_(settings),
+        report_(report) {
     best_.validation_rms = std::numeric_limits<double>::infinity();
   }
 
   // Returns false after too many iterations without an improvement.
-  bool observe(const VectorXd& parameters, int iteration) {
-    const double rms = rms_difference(batch_.forward(parameters.data()), expected_);
+  bool observe(int iteration) {
+    const double rms = rms_difference(batch_.forward(parameters_.data()), expected_);
     best_.iterations = iteration;
     if (rms < best_.validation_rms) {
       best_.validation_rms = rms;
-      best_.parameters = parameters;
+      best_.parameters = parameters_;
       best_.best_iteration = iteration;
     }
-    return iteration - best_.best_iteration < patience_;
+    return iteration - best_.best_iteration < settings_.patience;
+  }
+
+  bool report(int iteration) const { return report_(static_cast<double>(iteration) / settings_.iterations); }
+
+  // Ceres calls this after each iteration.
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const bool improves = observe(summary.iteration), continues = report(summary.iteration);
+    return improves && continues ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
   const OptimisedNetwork& best() const noexcept { return best_; }
@@ -44,45 +58,10 @@ class ValidationWatch {
  private:
   NetworkBatch batch_;
   const MatrixXd& expected_;
-  int patience_;
+  const VectorXd& parameters_;
+  const OptimiserSettings& settings_;
+  const StepReport& report_;
   OptimisedNetwork best_;
-};
-
-// NetworkResiduals gives residuals of all outputs and one per weight for the decay, and the Jacobian.
-class NetworkResiduals : public ceres::CostFunction {
- public:
-  NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
-      : batch_(shape, samples.training_inputs),
-        expected_(samples.training_outputs),
-        // The decay is scaled, because Ceres minimizes half the sum of squares, and the loss is the mean of
-        // squares.
-        decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
-    const auto count = static_cast<int>(shape.parameter_count());
-    set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
-    mutable_parameter_block_sizes()->push_back(count);
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    const Index count = expected_.size();
-    const bool decays = num_residuals() > count;
-    const Eigen::Map<const VectorXd> values(parameters[0], decay_.size());
-    Eigen::Map<MatrixXd>(residuals, expected_.rows(), expected_.cols()) =
-        batch_.forward(values.data()) - expected_;
-    if (decays) Eigen::Map<VectorXd>(residuals + count, decay_.size()) = decay_.cwiseProduct(values);
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    Eigen::Map<NetworkBatch::RowMajor> jacobian(jacobians[0], num_residuals(), decay_.size());
-    batch_.jacobian(values.data(), jacobian.topRows(count));
-    if (decays) {
-      jacobian.bottomRows(decay_.size()).setZero();
-      jacobian.bottomRows(decay_.size()).diagonal() = decay_;
-    }
-    return true;
-  }
-
- private:
-  mutable NetworkBatch batch_;  // Ceres uses one thread here
-  const MatrixXd& expected_;
-  VectorXd decay_;
 };
 
 // NetworkLoss gives the loss as one number, with its gradient.
@@ -113,26 +92,6 @@ class NetworkLoss : public ceres::FirstOrderFunction {
   VectorXd decay_;
 };
 
-// An IterationWatch is called after each iteration of Ceres. It ends the training if the validation error no
-// longer improves, or if the caller wants to stop.
-class IterationWatch : public ceres::IterationCallback {
- public:
-  IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)
-      : watch_(watch), parameters_(parameters), iterations_(iterations), report_(report) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    const bool improves = watch_.observe(parameters_, summary.iteration);
-    const bool continues = report_(static_cast<double>(summary.iteration) / iterations_);
-    return improves && continues ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-  }
-
- private:
-  ValidationWatch& watch_;
-  const VectorXd& parameters_;
-  int iterations_;
-  const StepReport& report_;
-};
-
 // The tolerances only end searches that no longer move. Otherwise, the validation error decides when to stop.
 template <typename Options>
 void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
@@ -155,13 +114,33 @@ OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const Networ
                                          const VectorXd& start, const OptimiserSettings& settings,
                                          const StepReport& report) {
   VectorXd parameters = start;
+  NetworkBatch batch(shape, samples.training_inputs);  // Ceres uses one thread here
+  const MatrixXd& expected = samples.training_outputs;
+  const Index count = expected.size(), unknowns = start.size();
+  // The decay is scaled, because Ceres minimizes half the sum of squares, and the loss is the mean of
+  // squares.
+  const VectorXd decay = std::sqrt(settings.weight_decay * static_cast<double>(count)) * weight_mask(shape);
+  // There is a residual for each output and, with decay, for each weight.
+  const Index residual_count = count + (settings.weight_decay > 0.0 ? unknowns : 0);
+  const auto evaluate = [&](const double* at, double* residuals, double* derivatives) {
+    const Eigen::Map<const VectorXd> values(at, unknowns);
+    Eigen::Map<MatrixXd>(residuals, expected.rows(), expected.cols()) = batch.forward(at) - expected;
+    const Index decays = residual_count - count;
+    if (decays > 0) Eigen::Map<VectorXd>(residuals + count, decays) = decay.cwiseProduct(values);
+    if (derivatives == nullptr) return true;
+    Eigen::Map<NetworkBatch::RowMajor> jacobian(derivatives, residual_count, unknowns);
+    batch.jacobian(at, jacobian.topRows(count));
+    jacobian.bottomRows(decays).setZero();
+    if (decays > 0) jacobian.bottomRows(decays).diagonal() = decay;
+    return true;
+  };
   ceres::Problem problem;
-  problem.AddResidualBlock(new NetworkResiduals(shape, samples, settings.weight_decay), nullptr,
-                           parameters.data());
-  ValidationWatch watch(shape, samples, settings);
-  IterationWatch callback(watch, parameters, settings.iterations, report);
+  problem.AddResidualBlock(new FunctionCost(static_cast<std::size_t>(residual_count),
+                                            static_cast<std::size_t>(unknowns), evaluate),
+                           nullptr, parameters.data());
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   ceres::Solver::Options options;
-  set_limits(options, settings, callback);
+  set_limits(options, settings, watch);
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
@@ -173,10 +152,9 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
                            const OptimiserSettings& settings, const StepReport& report) {
   VectorXd parameters = start;
   const ceres::GradientProblem problem(new NetworkLoss(shape, samples, settings.weight_decay));
-  ValidationWatch watch(shape, samples, settings);
-  IterationWatch callback(watch, parameters, settings.iterations, report);
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   ceres::GradientProblemSolver::Options options;
-  set_limits(options, settings, callback);
+  set_limits(options, settings, watch);
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(options, problem, parameters.data(), &summary);
   return watch.best();
@@ -195,10 +173,10 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
   std::mt19937_64 random(settings.seed);
 
   NetworkBatch batch(shape, {});
-  ValidationWatch watch(shape, samples, settings);
   VectorXd parameters = start, gradient(start.size());
+  ValidationWatch watch(shape, samples, parameters, settings, report);
   VectorXd first = VectorXd::Zero(start.size()), second = VectorXd::Zero(start.size());
-  watch.observe(parameters, 0);
+  watch.observe(0);
   double step = 0.0;
   for (int pass = 1; pass <= settings.iterations; ++pass) {
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
@@ -220,8 +198,7 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
       parameters.array() -=
           rate * (first.array() / first_share) / ((second.array() / second_share).sqrt() + kFloor);
     }
-    if (!watch.observe(parameters, pass)) break;
-    if (!report(static_cast<double>(pass) / settings.iterations)) break;
+    if (!watch.observe(pass) || !watch.report(pass)) break;
   }
   return watch.best();
 }

@@ -107,36 +107,32 @@ std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t stream) {
   return z ^ (z >> 31);
 }
 
-struct NormalisedSamples {
-  std::vector<Scaling> input_scalings, output_scalings;
-  Eigen::MatrixXd inputs, outputs;  // one column per sample, in random order
-};
-
-NormalisedSamples normalised_samples(const Samples& samples, std::uint64_t seed) {
+// Returns all samples as training samples, in random order. Stores the scalings of the network.
+NetworkSamples normalised_samples(const Samples& samples, std::uint64_t seed, Network* network) {
   const auto inputs = columns_of(samples.inputs, samples.input_count);
   const auto outputs = columns_of(samples.outputs, samples.output_count);
-  NormalisedSamples result;
-  for (Index i = 0; i < inputs.rows(); ++i) result.input_scalings.push_back(range_scaling(inputs.row(i)));
-  for (Index i = 0; i < outputs.rows(); ++i)
-    result.output_scalings.push_back(variance_scaling(outputs.row(i)));
+  for (Index i = 0; i < inputs.rows(); ++i) network->inputs.push_back(range_scaling(inputs.row(i)));
+  for (Index i = 0; i < outputs.rows(); ++i) network->outputs.push_back(variance_scaling(outputs.row(i)));
   const std::vector<std::size_t> order = seeded_order(samples.count(), mixed_seed(seed, 0));
-  result.inputs = normalised_columns(inputs, result.input_scalings)(Eigen::all, order);
-  result.outputs = normalised_columns(outputs, result.output_scalings)(Eigen::all, order);
-  return result;
+  return {normalised_columns(inputs, network->inputs)(Eigen::all, order),
+          normalised_columns(outputs, network->outputs)(Eigen::all, order),
+          {},
+          {}};
 }
 
 // Splits the samples. The first `validation_fraction` of them (1 to 2048) are validation samples. The
 // following samples (at most `most_training`) are training samples. If the fraction is 0, the training
 // samples are also the validation samples.
-NetworkSamples split_columns(const NormalisedSamples& all, double validation_fraction,
+NetworkSamples split_columns(const NetworkSamples& all, double validation_fraction,
                              std::size_t most_training) {
-  const auto count = static_cast<std::size_t>(all.inputs.cols());
+  const MatrixXd &inputs = all.training_inputs, &outputs = all.training_outputs;
+  const auto count = static_cast<std::size_t>(inputs.cols());
   auto validation = static_cast<std::size_t>(std::lround(validation_fraction * static_cast<double>(count)));
   if (validation_fraction > 0.0) validation = std::clamp(validation, std::size_t{1}, kMostValidationRows);
   const auto from = static_cast<Index>(validation);
   const auto training = static_cast<Index>(std::min(count - validation, most_training));
-  NetworkSamples samples{all.inputs.middleCols(from, training), all.outputs.middleCols(from, training),
-                         all.inputs.leftCols(from), all.outputs.leftCols(from)};
+  NetworkSamples samples{inputs.middleCols(from, training), outputs.middleCols(from, training),
+                         inputs.leftCols(from), outputs.leftCols(from)};
   if (validation == 0) {
     samples.validation_inputs = samples.training_inputs;
     samples.validation_outputs = samples.training_outputs;
@@ -208,17 +204,9 @@ class StartsProgress {
 // A Training trains a network once. The seed determines the initial weights.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
-// A TrainingOutcome is the result of either way of training.
-struct TrainingOutcome {
-  OptimisedNetwork best;  // of the start `best_start`
-  std::size_t best_start = 0;
-  NetworkSamples samples;
-  std::string method;
-};
-
-// Trains from every start, keeps the best network and adds the starts to the method.
-void run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress,
-                TrainingOutcome& outcome) {
+// Trains from every start, returns the best network and adds the starts to the method.
+OptimisedNetwork run_starts(const Training& train, const TrainingOptions& options,
+                            const FitProgress& progress, TrainedNetwork* trained) {
   std::vector<OptimisedNetwork> results(options.starts);
   StartsProgress board(options.starts, progress);
   run_parallel(options.starts, options.jobs, [&](std::size_t start) {
@@ -228,17 +216,14 @@ void run_starts(const Training& train, const TrainingOptions& options, const Fit
     report(1.0);
   });
   board.rethrow();
-  const auto best = std::min_element(results.begin(), results.end(),
-                                     [](const OptimisedNetwork& a, const OptimisedNetwork& b) {
-                                       return a.validation_rms < b.validation_rms;
-                                     });
+  const auto best = std::ranges::min_element(results, {}, &OptimisedNetwork::validation_rms);
   if (!std::isfinite(best->validation_rms))
     throw numeric_error("network: none of " + std::to_string(results.size()) + " starts gave finite errors");
-  outcome.best = *best;
-  outcome.best_start = static_cast<std::size_t>(best - results.begin());
-  outcome.method += std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) +
-                    ", best " + std::to_string(outcome.best_start + 1) + " at iteration " +
-                    std::to_string(best->best_iteration) + " of " + std::to_string(best->iterations);
+  trained->best_start = static_cast<std::size_t>(best - results.begin());
+  trained->method += std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) +
+                     ", best " + std::to_string(trained->best_start + 1) + " at iteration " +
+                     std::to_string(best->best_iteration) + " of " + std::to_string(best->iterations);
+  return *best;
 }
 
 std::string shape_text(const NetworkShape& shape) {
@@ -247,52 +232,51 @@ std::string shape_text(const NetworkShape& shape) {
   return text + " " + std::string(activation_name(shape.activation));
 }
 
-TrainingOutcome train_small(const NetworkShape& shape, const NormalisedSamples& all,
-                            const TrainingOptions& options, const FitProgress& progress) {
+// Both ways of training set `samples` to those that they use, and describe themselves in `trained`.
+OptimisedNetwork train_small(const NetworkShape& shape, const NetworkSamples& all,
+                             const TrainingOptions& options, const FitProgress& progress,
+                             NetworkSamples* samples, TrainedNetwork* trained) {
   const auto parameters = static_cast<double>(shape.parameter_count());
   const double residuals =
       std::clamp(kLevenbergWork / (parameters * parameters), kFewestResiduals, kMostResiduals);
   const auto most = static_cast<std::size_t>(residuals / static_cast<double>(shape.sizes.back())) + 1;
-  TrainingOutcome outcome;
-  outcome.samples = split_columns(all, options.validation_fraction, most);
+  *samples = split_columns(all, options.validation_fraction, most);
   OptimiserSettings settings;
   settings.weight_decay = options.weight_decay;
   settings.iterations = kLevenbergIterations;
   settings.patience = kLevenbergPatience;
-  outcome.method = "Levenberg-Marquardt, ";
-  run_starts(
+  trained->method = "Levenberg-Marquardt, ";
+  OptimisedNetwork best = run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
-        return run_levenberg_marquardt(shape, outcome.samples, initial_parameters(shape, seed), settings,
-                                       report);
+        return run_levenberg_marquardt(shape, *samples, initial_parameters(shape, seed), settings, report);
       },
-      options, progress, outcome);
-  if (options.validation_fraction == 0.0) return outcome;
+      options, progress, trained);
+  if (options.validation_fraction == 0.0) return best;
 
   // A short refit starts from the validated parameters, stays close to them, and uses the additional rows.
-  NetworkSamples& samples = outcome.samples;
-  const Index used = samples.training_inputs.cols() + samples.validation_inputs.cols();
-  samples.training_inputs = all.inputs.leftCols(used);
-  samples.training_outputs = all.outputs.leftCols(used);
-  const NetworkSamples everything{samples.training_inputs, samples.training_outputs, samples.training_inputs,
-                                  samples.training_outputs};
-  settings.iterations = std::clamp(outcome.best.best_iteration / 2, 5, kRefitIterations);
+  const Index used = samples->training_inputs.cols() + samples->validation_inputs.cols();
+  samples->training_inputs = all.training_inputs.leftCols(used);
+  samples->training_outputs = all.training_outputs.leftCols(used);
+  const NetworkSamples everything{samples->training_inputs, samples->training_outputs,
+                                  samples->training_inputs, samples->training_outputs};
+  settings.iterations = std::clamp(best.best_iteration / 2, 5, kRefitIterations);
   settings.patience = settings.iterations;
-  const OptimisedNetwork refitted = run_levenberg_marquardt(shape, everything, outcome.best.parameters,
-                                                            settings, [](double) { return true; });
-  if (std::isfinite(refitted.validation_rms)) outcome.best.parameters = refitted.parameters;
-  outcome.method +=
+  const OptimisedNetwork refitted =
+      run_levenberg_marquardt(shape, everything, best.parameters, settings, [](double) { return true; });
+  if (std::isfinite(refitted.validation_rms)) best.parameters = refitted.parameters;
+  trained->method +=
       ", then " + std::to_string(refitted.best_iteration) + " iterations with the validation rows";
-  return outcome;
+  return best;
 }
 
-TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& all,
-                            const TrainingOptions& options, const FitProgress& progress) {
-  TrainingOutcome outcome;
-  outcome.samples = split_columns(all, options.validation_fraction, std::numeric_limits<std::size_t>::max());
+OptimisedNetwork train_large(const NetworkShape& shape, const NetworkSamples& all,
+                             const TrainingOptions& options, const FitProgress& progress,
+                             NetworkSamples* samples, TrainedNetwork* trained) {
+  *samples = split_columns(all, options.validation_fraction, std::numeric_limits<std::size_t>::max());
   const NetworkSamples part = split_columns(all, options.validation_fraction, kMostLbfgsRows);
   // A pass takes about three multiplications per parameter and sample.
   const double pass_work = 3.0 * static_cast<double>(shape.parameter_count()) *
-                           static_cast<double>(outcome.samples.training_inputs.cols());
+                           static_cast<double>(samples->training_inputs.cols());
   OptimiserSettings adam;
   adam.weight_decay = options.weight_decay;
   adam.iterations = static_cast<int>(std::clamp(kAdamWork / pass_work, kFewestPasses, kMostPasses));
@@ -300,13 +284,13 @@ TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& 
   OptimiserSettings lbfgs = adam;
   lbfgs.iterations = kLbfgsIterations;
   lbfgs.patience = kLbfgsPatience;
-  outcome.method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
-                   std::to_string(part.training_inputs.cols()) + " rows, ";
-  run_starts(
+  trained->method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
+                    std::to_string(part.training_inputs.cols()) + " rows, ";
+  return run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
         OptimiserSettings own = adam;
         own.seed = mixed_seed(seed, 0);
-        OptimisedNetwork first = run_adam(shape, outcome.samples, initial_parameters(shape, seed), own,
+        OptimisedNetwork first = run_adam(shape, *samples, initial_parameters(shape, seed), own,
                                           [&](double share) { return report(0.5 * share); });
         if (!std::isfinite(first.validation_rms)) return first;
         OptimisedNetwork second = run_lbfgs(shape, part, first.parameters, lbfgs,
@@ -315,8 +299,7 @@ TrainingOutcome train_large(const NetworkShape& shape, const NormalisedSamples& 
         second.iterations += first.iterations;
         return second;
       },
-      options, progress, outcome);
-  return outcome;
+      options, progress, trained);
 }
 
 }  // namespace
@@ -325,24 +308,23 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
                              const FitProgress& progress) {
   require_sound(samples, options);
   const NetworkShape shape = shape_of(samples, options);
-  const NormalisedSamples all = normalised_samples(samples, options.seed);
-  const bool is_small = shape.parameter_count() <= kLevenbergParameters;
-  const TrainingOutcome outcome =
-      is_small ? train_small(shape, all, options, progress) : train_large(shape, all, options, progress);
-
   TrainedNetwork trained;
-  const double* parameters = outcome.best.parameters.data();
-  trained.network = {shape.activation, all.input_scalings, all.output_scalings,
-                     layers_from_parameters(shape, parameters)};
-  NetworkBatch batch(shape, outcome.samples.training_inputs);
-  trained.training_rms = rms_difference(batch.forward(parameters), outcome.samples.training_outputs);
-  trained.validation_rms = outcome.best.validation_rms;
-  trained.best_start = outcome.best_start;
+  trained.network.activation = shape.activation;
+  const NetworkSamples all = normalised_samples(samples, options.seed, &trained.network);
+  const bool is_small = shape.parameter_count() <= kLevenbergParameters;
+  NetworkSamples used;
+  const OptimisedNetwork best =
+      (is_small ? train_small : train_large)(shape, all, options, progress, &used, &trained);
+  const double* parameters = best.parameters.data();
+  trained.network.layers = layers_from_parameters(shape, parameters);
+  NetworkBatch batch(shape, used.training_inputs);
+  trained.training_rms = rms_difference(batch.forward(parameters), used.training_outputs);
+  trained.validation_rms = best.validation_rms;
   const bool shares_rows =
       options.validation_fraction == 0.0 || is_small;  // the training rows include the validation rows
-  trained.rows = static_cast<std::size_t>(outcome.samples.training_inputs.cols() +
-                                          (shares_rows ? 0 : outcome.samples.validation_inputs.cols()));
-  trained.method = shape_text(shape) + ", " + outcome.method + ", " + std::to_string(trained.rows) + " of " +
+  trained.rows = static_cast<std::size_t>(used.training_inputs.cols() +
+                                          (shares_rows ? 0 : used.validation_inputs.cols()));
+  trained.method = shape_text(shape) + ", " + trained.method + ", " + std::to_string(trained.rows) + " of " +
                    std::to_string(samples.count()) + " rows";
   if (progress) progress(1.0);
   return trained;

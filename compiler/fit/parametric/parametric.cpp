@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Dense>
 
@@ -22,28 +23,22 @@ double grid_value(const Range& range, int i, int steps) {
   return i == steps ? range.max : range.min + (range.max - range.min) * i / steps;
 }
 
-// A Least holds the smallest value of a quantity that must be positive, and where it occurs.
-struct Least {
-  double value = 1e300;
-  double alpha = 0.0;
-  double specular = 0.0;
-  void take(double candidate, double at_alpha, double at_specular) {
-    if (candidate < value || std::isnan(candidate)) *this = {candidate, at_alpha, at_specular};
-  }
-};
-
-// Returns the smallest value of `quantity` over a grid of the domain. If `flat`, it is the same at every
-// specular.
-Least least_over(const Domain& domain, bool flat, const auto& quantity) {
-  Least least;
+// Returns where `quantity` is smallest on a grid of the domain, or where it is NaN. If `flat`, it is the same
+// at every specular.
+MappedTexel least_place(const Domain& domain, bool flat, const auto& quantity) {
+  MappedTexel place;
+  double least = 1e300;
   for (int i = 0; i <= kAlphaSteps; ++i) {
     const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
     for (int j = flat ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
       const double specular = grid_value(domain.specular, j, kSpecularSteps);
-      least.take(quantity(alpha, specular), alpha, specular);
+      const double value = quantity(alpha, specular);
+      if (!(value < least || std::isnan(value))) continue;
+      least = value;
+      place = {alpha, specular};
     }
   }
-  return least;
+  return place;
 }
 
 double alpha_derivative(const Parametric& form, double alpha, double specular) {
@@ -66,9 +61,9 @@ double specular_derivative(const Parametric& form, double alpha, double specular
   return sum;
 }
 
-std::string context(const Least& least, bool with_specular) {
-  std::string text = number_text(least.value) + " at alpha1 " + number_text(least.alpha);
-  if (with_specular) text += ", specular1 " + number_text(least.specular);
+std::string context(double value, const MappedTexel& place, bool with_specular) {
+  std::string text = number_text(value) + " at alpha1 " + number_text(place.alpha);
+  if (with_specular) text += ", specular1 " + number_text(place.specular);
   return text;
 }
 
@@ -76,26 +71,32 @@ std::string context(const Least& least, bool with_specular) {
 
 void require_rising_alpha(const Parametric& form, const Domain& domain) {
   const bool flat = form.alpha.size() == 1;
-  const Least least = least_over(
-      domain, flat, [&](double alpha, double specular) { return alpha_derivative(form, alpha, specular); });
-  if (least.value > 0.0) return;
+  const auto slope = [&](double alpha, double specular) { return alpha_derivative(form, alpha, specular); };
+  const MappedTexel place = least_place(domain, flat, slope);
+  const double least = slope(place.alpha, place.specular);
+  if (least > 0.0) return;
   throw numeric_error("fit: the roughness curve does not increase from " + number_text(domain.alpha.min) +
-                      " to " + number_text(domain.alpha.max) + ": its slope is " + context(least, !flat));
+                      " to " + number_text(domain.alpha.max) + ": its slope is " +
+                      context(least, place, !flat));
 }
 
 void require_rising_specular(const Parametric& form, const Domain& domain, double least_specular) {
   const bool proportional = is_proportional(form);
-  const Least slope = least_over(domain, proportional, [&](double alpha, double specular) {
+  const auto slope = [&](double alpha, double specular) {
     return specular_derivative(form, alpha, specular);
-  });
-  const Least value =
-      least_over({domain.alpha, {least_specular, least_specular}}, true,
-                 [&](double alpha, double specular) { return target_specular(form, alpha, specular); });
-  if (!(slope.value > 0.0))
-    throw numeric_error(proportional ? "fit: k(alpha) is not positive: it is " + context(slope, false)
-                                     : "fit: specular2 does not increase with specular1: its slope is " +
-                                           context(slope, true));
-  if (!(value.value >= 0.0)) throw numeric_error("fit: specular2 is negative: it is " + context(value, true));
+  };
+  const auto value = [&](double alpha, double specular) { return target_specular(form, alpha, specular); };
+  const MappedTexel flattest = least_place(domain, proportional, slope),
+                    darkest = least_place({domain.alpha, {least_specular, least_specular}}, true, value);
+  const double least_slope = slope(flattest.alpha, flattest.specular),
+               least_value = value(darkest.alpha, darkest.specular);
+  if (!(least_slope > 0.0))
+    throw numeric_error(proportional
+                            ? "fit: k(alpha) is not positive: it is " + context(least_slope, flattest, false)
+                            : "fit: specular2 does not increase with specular1: its slope is " +
+                                  context(least_slope, flattest, true));
+  if (!(least_value >= 0.0))
+    throw numeric_error("fit: specular2 is negative: it is " + context(least_value, darkest, true));
 }
 
 double least_positive_specular(const std::vector<TableRow>& rows) {
@@ -105,8 +106,10 @@ double least_positive_specular(const std::vector<TableRow>& rows) {
   return least;
 }
 
-std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form) {
-  Eigen::MatrixXd basis(static_cast<Index>(rows.size()), static_cast<Index>(form.coefficient_count()));
+std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows,
+                                               const ParametricForm& form) {
+  Eigen::MatrixXd basis(static_cast<Index>(rows.size()),
+                        std::accumulate(form.degrees.begin(), form.degrees.end(), Index{0}));
   Eigen::VectorXd target(basis.rows());
   for (Index r = 0; r < basis.rows(); ++r) {
     const TableRow& row = rows[static_cast<std::size_t>(r)];
@@ -122,7 +125,7 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
   if (qr.rank() < basis.cols())
     throw input_error("fit: the training rows have too few distinct samples for the form " +
-                      std::string(form.name) + " (at least " + std::to_string(basis.cols()) +
+                      std::string(form.roughness) + " (at least " + std::to_string(basis.cols()) +
                       " that differ in alpha1 and specular1 are required)");
   const Eigen::VectorXd solution = qr.solve(target);
   std::vector<std::vector<double>> coefficients;
@@ -137,8 +140,8 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
 Parametric fit_parametric(const std::vector<TableRow>& rows, const Domain& domain,
                           const ParametricForm& form) {
   Parametric fit;
-  fit.specular = fit_specular_terms(rows, *form.specular);
-  fit.alpha = fit_roughness(rows, *form.roughness);
+  fit.specular = fit_specular_terms(rows, form);
+  fit.alpha = fit_roughness(rows, form);
   require_rising_alpha(fit, domain);
   require_rising_specular(fit, domain, least_positive_specular(rows));
   return fit;

@@ -24,7 +24,7 @@ Regression fit_parametric_kind(const std::vector<TableRow>& rows, const Domain& 
 // The following functions, and fit_specular_terms(), are for code that chooses a form, or fits a form again.
 
 // Returns the least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
-std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);
+std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const ParametricForm& form);
 
 // Throws kNumeric with the place if alpha2 does not increase with alpha1 everywhere in `domain`.
 void require_rising_alpha(const Parametric& form, const Domain& domain);

@@ -33,16 +33,7 @@ constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
 constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
 
-// A JoinedRows combines the rows of one alpha. If f holds the values of the curves at alpha, |weights f -
-// target|^2 is their squared error up to a constant. A QR decomposition of the powers of specular makes this
-// exact.
-struct JoinedRows {
-  VectorXd alpha;
-  MatrixXd weights;  // one column per term
-  VectorXd target;
-  double row_count = 0.0;
-  double first_alpha = 0.0, second_alpha = 0.0, last_alpha = 0.0;
-};
+using RowsByAlpha = std::map<double, std::vector<const TableRow*>>;
 
 MatrixXd specular_powers(const std::vector<const TableRow*>& rows, const std::vector<int>& powers) {
   MatrixXd values(static_cast<Index>(rows.size()), static_cast<Index>(powers.size()));
@@ -51,35 +42,6 @@ MatrixXd specular_powers(const std::vector<const TableRow*>& rows, const std::ve
       values(i, t) =
           std::pow(rows[static_cast<std::size_t>(i)]->specular1, powers[static_cast<std::size_t>(t)]);
   return values;
-}
-
-JoinedRows join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha,
-                     const std::vector<int>& powers) {
-  const auto terms = static_cast<Index>(powers.size());
-  Index count = 0;
-  for (const auto& [alpha, rows] : by_alpha) count += std::min(static_cast<Index>(rows.size()), terms);
-  JoinedRows samples{VectorXd(count),         MatrixXd(count, terms),
-                     VectorXd(count),         0.0,
-                     by_alpha.begin()->first, std::next(by_alpha.begin())->first,
-                     by_alpha.rbegin()->first};
-  Index next = 0;
-  for (const auto& [alpha, rows] : by_alpha) {
-    MatrixXd left = specular_powers(rows, powers);
-    VectorXd right(left.rows());
-    for (Index i = 0; i < right.size(); ++i) right[i] = rows[static_cast<std::size_t>(i)]->specular2;
-    const Index kept = std::min(left.rows(), terms);
-    if (left.rows() > terms) {
-      const Eigen::HouseholderQR<MatrixXd> qr(left);
-      right = qr.householderQ().adjoint() * right;
-      left = qr.matrixQR().topRows(terms).triangularView<Eigen::Upper>();
-    }
-    samples.alpha.segment(next, kept).setConstant(alpha);
-    samples.weights.middleRows(next, kept) = left.topRows(kept);
-    samples.target.segment(next, kept) = right.head(kept);
-    samples.row_count += static_cast<double>(rows.size());
-    next += kept;
-  }
-  return samples;
 }
 
 // Returns the derivative of phi(rate, x) by the rate. Uses the series if the closed formula is 0 / 0.
@@ -92,17 +54,48 @@ double rise_derivative(double rate, double x) {
 // VariableProjection gives the squared error as a function of the rates only. The other coefficients are the
 // least squares solution for these rates (Golub and Pereyra 1973). The Jacobian is Kaufman's (1975), whose
 // gradient is exact. The rates are ramp_rate and bump_rate of each term, in this order.
-class VariableProjection {
+class VariableProjection : public ceres::CostFunction {
  public:
-  VariableProjection(const JoinedRows& samples, const SpecularForm& form)
-      : samples_(samples), form_(form), penalty_(kContributionPenalty * std::sqrt(samples.row_count)) {
+  // Combines the rows of each alpha, of which there are two or more. If f holds the values of the curves at
+  // alpha, |weights f - target|^2 is their squared error up to a constant. A QR decomposition of the powers
+  // of specular makes this exact.
+  VariableProjection(const RowsByAlpha& by_alpha, const ParametricForm& form)
+      : form_(form),
+        first_alpha_(by_alpha.begin()->first),
+        second_alpha_(std::next(by_alpha.begin())->first),
+        last_alpha_(by_alpha.rbegin()->first) {
+    const auto terms = static_cast<Index>(form.powers.size());
+    Index count = 0;
+    for (const auto& [alpha, rows] : by_alpha) count += std::min(static_cast<Index>(rows.size()), terms);
+    alpha_.resize(count);
+    weights_.resize(count, terms);
     target_ = VectorXd::Zero(size());
-    target_.head(sample_count()) = samples.target;
+    Index next = 0;
+    double row_count = 0.0;
+    for (const auto& [alpha, rows] : by_alpha) {
+      MatrixXd left = specular_powers(rows, form.powers);
+      VectorXd right(left.rows());
+      for (Index i = 0; i < right.size(); ++i) right[i] = rows[static_cast<std::size_t>(i)]->specular2;
+      const Index kept = std::min(left.rows(), terms);
+      if (left.rows() > terms) {
+        const Eigen::HouseholderQR<MatrixXd> qr(left);
+        right = qr.householderQ().adjoint() * right;
+        left = qr.matrixQR().topRows(terms).triangularView<Eigen::Upper>();
+      }
+      alpha_.segment(next, kept).setConstant(alpha);
+      weights_.middleRows(next, kept) = left.topRows(kept);
+      target_.segment(next, kept) = right.head(kept);
+      row_count += static_cast<double>(rows.size());
+      next += kept;
+    }
+    penalty_ = kContributionPenalty * std::sqrt(row_count);
+    set_num_residuals(static_cast<int>(size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(2 * term_count()));
   }
 
   Index size() const { return sample_count() + column_count(); }
   double largest_rate(bool bump) const {
-    const double alpha = samples_.second_alpha;
+    const double alpha = second_alpha_;
     return kLargestDecay / (bump ? alpha * alpha : alpha);
   }
   std::size_t term_count() const { return form_.powers.size(); }
@@ -113,26 +106,26 @@ class VariableProjection {
 
   // Returns one row for each sample, and then one row for each column, for the penalty.
   MatrixXd basis(const std::vector<double>& rates) const {
-    const Index terms = samples_.weights.cols(), count = sample_count();
+    const Index terms = weights_.cols(), count = sample_count();
     MatrixXd columns = MatrixXd::Zero(size(), column_count());
     for (Index t = 0; t < terms; ++t) {
       const auto term = static_cast<std::size_t>(t);
       const double ramp_rate = rates[2 * term], bump_rate = rates[2 * term + 1];
       for (Index i = 0; i < count; ++i) {
-        const double alpha = samples_.alpha[i], weight = samples_.weights(i, t);
+        const double alpha = alpha_[i], weight = weights_(i, t);
         columns(i, 3 * t) = form_.is_repeated(term) ? 0.0 : weight;
         columns(i, 3 * t + 1) = weight * rise(ramp_rate, alpha);
         columns(i, 3 * t + 2) = weight * rise(bump_rate, alpha * alpha);
       }
-      const double last = samples_.last_alpha;
+      const double last = last_alpha_;
       columns(count + 3 * t, 3 * t) = penalty_;
       columns(count + 3 * t + 1, 3 * t + 1) = penalty_ * rise(ramp_rate, last);
       columns(count + 3 * t + 2, 3 * t + 2) = penalty_ * rise(bump_rate, last * last);
     }
     if (form_.pole) {
       columns.col(3 * terms).head(count) =
-          samples_.weights.col(static_cast<Index>(slope_term())).cwiseQuotient(samples_.alpha);
-      columns(count + 3 * terms, 3 * terms) = penalty_ / samples_.first_alpha;
+          weights_.col(static_cast<Index>(slope_term())).cwiseQuotient(alpha_);
+      columns(count + 3 * terms, 3 * terms) = penalty_ / first_alpha_;
     }
     return columns;
   }
@@ -143,15 +136,16 @@ class VariableProjection {
     return (columns * coefficients - target_).squaredNorm();
   }
 
-  // Computes the residuals and, if `jacobian` is given, their derivatives by each rate.
-  void evaluate(const std::vector<double>& rates, double* residuals, double* jacobian) const {
+  // Computes the residuals and, if Ceres asks for it, their derivatives by each rate.
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const std::vector<double> rates(parameters[0], parameters[0] + 2 * term_count());
     const MatrixXd columns = basis(rates);
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
     const VectorXd coefficients = qr.solve(target_);
     Eigen::Map<VectorXd>(residuals, size()) = columns * coefficients - target_;
-    if (jacobian == nullptr) return;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<RowMajor> derivative(jacobian, size(), static_cast<Index>(rates.size()));
+    Eigen::Map<RowMajor> derivative(jacobians[0], size(), static_cast<Index>(rates.size()));
     for (Index r = 0; r < derivative.cols(); ++r) {
       const Index column = 3 * (r / 2) + 1 + r % 2;
       VectorXd rotated =
@@ -160,6 +154,7 @@ class VariableProjection {
       rotated.head(qr.rank()).setZero();
       derivative.col(r) = qr.householderQ() * rotated;
     }
+    return true;
   }
 
   std::vector<SpecularTerm> terms(const std::vector<double>& rates) const {
@@ -175,8 +170,8 @@ class VariableProjection {
   }
 
  private:
-  Index sample_count() const { return samples_.alpha.size(); }
-  Index column_count() const { return 3 * samples_.weights.cols() + (form_.pole ? 1 : 0); }
+  Index sample_count() const { return alpha_.size(); }
+  Index column_count() const { return 3 * weights_.cols() + (form_.pole ? 1 : 0); }
 
   // Returns the derivative of the column that depends on rate `r`.
   VectorXd column_derivative(Index r, double rate) const {
@@ -184,33 +179,17 @@ class VariableProjection {
     const auto argument = [&](double alpha) { return r % 2 == 1 ? alpha * alpha : alpha; };
     VectorXd change = VectorXd::Zero(size());
     for (Index i = 0; i < count; ++i)
-      change[i] = samples_.weights(i, r / 2) * rise_derivative(rate, argument(samples_.alpha[i]));
-    change[count + 3 * (r / 2) + 1 + r % 2] = penalty_ * rise_derivative(rate, argument(samples_.last_alpha));
+      change[i] = weights_(i, r / 2) * rise_derivative(rate, argument(alpha_[i]));
+    change[count + 3 * (r / 2) + 1 + r % 2] = penalty_ * rise_derivative(rate, argument(last_alpha_));
     return change;
   }
 
-  const JoinedRows& samples_;
-  const SpecularForm& form_;
-  const double penalty_;
-  VectorXd target_;
-};
-
-class RateCost : public ceres::CostFunction {
- public:
-  RateCost(const VariableProjection& projection, int rate_count)
-      : projection_(projection), rate_count_(rate_count) {
-    set_num_residuals(static_cast<int>(projection.size()));
-    mutable_parameter_block_sizes()->push_back(rate_count);
-  }
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    projection_.evaluate({parameters[0], parameters[0] + rate_count_}, residuals,
-                         jacobians == nullptr ? nullptr : jacobians[0]);
-    return true;
-  }
-
- private:
-  const VariableProjection& projection_;
-  int rate_count_;
+  const ParametricForm& form_;
+  double first_alpha_, second_alpha_, last_alpha_;
+  VectorXd alpha_;
+  MatrixXd weights_;  // one column per term
+  double penalty_ = 0.0;
+  VectorXd target_;  // of the samples, and then 0 for the penalty of each column
 };
 
 struct Rates {
@@ -220,12 +199,14 @@ struct Rates {
 
 bool cheaper(const Rates& a, const Rates& b) { return a.cost < b.cost; }
 
-Rates polish(const VariableProjection& projection, Rates rates) {
+Rates polish(VariableProjection& projection, Rates rates) {
   const auto count = static_cast<int>(rates.values.size());
   for (std::size_t r = 0; r < rates.values.size(); ++r)
     rates.values[r] = std::min(rates.values[r], projection.largest_rate(r % 2 == 1));
-  ceres::Problem problem;
-  problem.AddResidualBlock(new RateCost(projection, count), nullptr, rates.values.data());
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&projection, nullptr, rates.values.data());
   for (int r = 0; r < count; ++r) {
     problem.SetParameterLowerBound(rates.values.data(), r, 0.0);
     problem.SetParameterUpperBound(rates.values.data(), r, projection.largest_rate(r % 2 == 1));
@@ -275,7 +256,7 @@ std::vector<Rates> search_starts(const VariableProjection& projection) {
 }
 
 // Returns an infinite cost if no start converges.
-Rates best_or_none(const VariableProjection& projection, const std::vector<Rates>& starts) {
+Rates best_or_none(VariableProjection& projection, const std::vector<Rates>& starts) {
   Rates best;
   for (const Rates& start : starts) {
     const Rates candidate = polish(projection, start);
@@ -284,7 +265,7 @@ Rates best_or_none(const VariableProjection& projection, const std::vector<Rates
   return best;
 }
 
-Rates best_of(const VariableProjection& projection, const std::vector<Rates>& starts) {
+Rates best_of(VariableProjection& projection, const std::vector<Rates>& starts) {
   const Rates best = best_or_none(projection, starts);
   if (!std::isfinite(best.cost))
     throw numeric_error(
@@ -292,21 +273,21 @@ Rates best_of(const VariableProjection& projection, const std::vector<Rates>& st
   return best;
 }
 
-void require_samples(std::size_t alpha_count, std::size_t specular_count, const SpecularForm& form) {
+void require_samples(std::size_t alpha_count, std::size_t specular_count, const ParametricForm& form) {
   if (alpha_count < kFewestAlphas)
     throw input_error("fit: the training rows have too few distinct alpha1 (" + std::to_string(alpha_count) +
                       ", at least " + std::to_string(kFewestAlphas) + " are required)");
   if (specular_count < form.powers.size())
     throw input_error("fit: the training rows have too few distinct specular1 (" +
-                      std::to_string(specular_count) + ", the form " + std::string(form.name) +
+                      std::to_string(specular_count) + ", the form " + std::string(form.specular) +
                       " requires at least " + std::to_string(form.powers.size()) + ")");
 }
 
 }  // namespace
 
-std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
+std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const ParametricForm& form,
                                              const std::vector<SpecularTerm>* near) {
-  std::map<double, std::vector<const TableRow*>> by_alpha;
+  RowsByAlpha by_alpha, thinned;
   std::set<double> alphas, speculars;  // only rows whose specular is not negligible
   for (const TableRow& row : rows) {
     by_alpha[row.alpha1].push_back(&row);
@@ -315,14 +296,12 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
     speculars.insert(row.specular1);
   }
   require_samples(alphas.size(), speculars.size(), form);
-  std::map<double, std::vector<const TableRow*>> thinned;
   const std::size_t step = (by_alpha.size() + kStartAlphas - 1) / kStartAlphas;
   std::size_t position = 0;
   for (const auto& group : by_alpha)
     if (position++ % step == 0) thinned.insert(group);
 
-  const JoinedRows samples = join_rows(by_alpha, form.powers);
-  const VariableProjection projection(samples, form);
+  VariableProjection projection(by_alpha, form);
   if (near != nullptr) {
     std::vector<Rates> starts(1);
     for (const SpecularTerm& term : *near)
@@ -330,8 +309,7 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
     const Rates found = best_or_none(projection, starts);
     if (std::isfinite(found.cost)) return projection.terms(found.values);
   }
-  const JoinedRows few = join_rows(thinned, form.powers);
-  const VariableProjection few_projection(few, form);
+  VariableProjection few_projection(thinned, form);
   std::vector<Rates> starts = search_starts(few_projection);
   if (step > 1) starts = {best_of(few_projection, starts)};
   return projection.terms(best_of(projection, starts).values);

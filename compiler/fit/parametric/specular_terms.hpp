@@ -15,7 +15,7 @@ namespace remap {
 // for them. `near` holds terms of the same form, fitted to similar rows. Their rates are the only start if it
 // converges. Throws kInput for rows with too few distinct alpha1 (6) or specular1 (one per power), and
 // kNumeric if no start converges.
-std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
+std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const ParametricForm& form,
                                              const std::vector<SpecularTerm>* near = nullptr);
 
 }  // namespace remap

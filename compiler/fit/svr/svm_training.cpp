@@ -34,30 +34,18 @@ void listen(const char* message) {
   std::from_chars(begin, text.data() + text.size(), iteration_count);
 }
 
-// An OwnedProblem holds the samples in libsvm's format: a list of (index, value) per sample that ends with
-// index -1.
-struct OwnedProblem {
-  OwnedProblem(const Samples& samples, const std::vector<Scaling>& scalings) : outputs(samples.outputs) {
-    const std::size_t width = samples.input_count + 1;
-    nodes.reserve(samples.count() * width);
-    for (std::size_t i = 0; i < samples.count(); ++i) {
-      for (std::size_t j = 0; j < samples.input_count; ++j) {
-        const double input = samples.inputs[i * samples.input_count + j];
-        nodes.push_back({static_cast<int>(j) + 1, normalised(scalings[j], input)});
-      }
-      nodes.push_back({-1, 0.0});
-    }
-    for (std::size_t i = 0; i < samples.count(); ++i) lists.push_back(&nodes[i * width]);
-    problem = {static_cast<int>(samples.count()), outputs.data(), lists.data()};
-  }
-  OwnedProblem(const OwnedProblem&) = delete;
-  OwnedProblem& operator=(const OwnedProblem&) = delete;
-
-  std::vector<double> outputs;
+// Returns the inputs in libsvm's format: for each sample, a list of (index, value) that ends with index -1.
+std::vector<svm_node> nodes_of(const Samples& samples, const std::vector<Scaling>& scalings) {
   std::vector<svm_node> nodes;
-  std::vector<svm_node*> lists;
-  svm_problem problem{};
-};
+  nodes.reserve(samples.count() * (samples.input_count + 1));
+  for (std::size_t i = 0; i < samples.count(); ++i) {
+    for (std::size_t j = 0; j < samples.input_count; ++j)
+      nodes.push_back(
+          {static_cast<int>(j) + 1, normalised(scalings[j], samples.inputs[i * samples.input_count + j])});
+    nodes.push_back({-1, 0.0});
+  }
+  return nodes;
+}
 
 // Scales alpha to [0, 1] over the samples, after the pole's transform. Scales specular by its span.
 std::vector<Scaling> input_scalings(const Samples& samples, const SvrHyperParameters& parameters) {
@@ -109,15 +97,18 @@ std::optional<KernelExpansion> train_expansion(const Samples& samples, const Svr
   std::call_once(listening, [] { svm_set_print_string_function(listen); });
 
   const std::vector<Scaling> scalings = input_scalings(samples, parameters);
-  const OwnedProblem problem(samples, scalings);
+  std::vector<double> outputs = samples.outputs;
+  std::vector<svm_node> nodes = nodes_of(samples, scalings);
+  std::vector<svm_node*> lists;
+  for (std::size_t i = 0; i < samples.count(); ++i) lists.push_back(&nodes[i * (samples.input_count + 1)]);
+  const svm_problem problem{static_cast<int>(samples.count()), outputs.data(), lists.data()};
   const svm_parameter settings = parameters_of(parameters);
-  if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
+  if (const char* refusal = svm_check_parameter(&problem, &settings); refusal != nullptr)
     throw usage_error(std::string("libsvm refused the hyper-parameters: ") + refusal);
   iteration_count = 0;
-  // The model refers to the lists of `problem`, which must outlive it.
+  // The model refers to `nodes`, which must outlive it.
   const std::unique_ptr<svm_model, void (*)(svm_model*)> model(
-      svm_train(&problem.problem, &settings),
-      [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
+      svm_train(&problem, &settings), [](svm_model* trained) { svm_free_and_destroy_model(&trained); });
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };

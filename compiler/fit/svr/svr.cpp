@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <string_view>
@@ -119,24 +120,16 @@ KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParamet
   return expansion;
 }
 
-// A RisingProgress combines the progress of both outputs into a fraction that never decreases.
-class RisingProgress {
- public:
-  explicit RisingProgress(const FitProgress& progress) : progress_(progress) {}
-  FitProgress part(double begin, double end) {
-    if (!progress_) return {};
-    return [this, begin, end](double share) {
-      const std::lock_guard lock(mutex_);
-      reached_ = std::max(reached_, begin + (end - begin) * std::clamp(share, 0.0, 1.0));
-      progress_(reached_);
-    };
-  }
-
- private:
-  const FitProgress& progress_;
-  std::mutex mutex_;
-  double reached_ = 0.0;
-};
+// Returns a progress whose fractions never decrease, because threads finish in any order.
+FitProgress rising(const FitProgress& progress) {
+  if (!progress) return {};
+  const auto mutex = std::make_shared<std::mutex>();
+  return [&progress, mutex, reached = 0.0](double share) mutable {
+    const std::lock_guard lock(*mutex);
+    reached = std::max(reached, std::clamp(share, 0.0, 1.0));
+    progress(reached);
+  };
+}
 
 }  // namespace
 
@@ -150,16 +143,16 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   Regression regression;
   regression.method["solver"] = solver_name() + ", epsilon-SVR, Gaussian kernel";
   regression.method["seed"] = std::to_string(options.seed);
-  RisingProgress rising(progress);
+  const FitProgress whole = rising(progress);
   // The first part of the progress bar is for alpha, the rest for specular.
   const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;
   Svr svr;
   SvrOptions used = options;
-  svr.alpha = fit_output(alpha, &used.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
+  svr.alpha = fit_output(alpha, &used.alpha, options, part_of(whole, 0.0, share_of_alpha), regression.method);
   svr.specular =
-      fit_output(specular, &used.specular, options, rising.part(share_of_alpha, 0.95), regression.method);
+      fit_output(specular, &used.specular, options, part_of(whole, share_of_alpha, 0.95), regression.method);
   regression.mapping = std::move(svr);
-  if (progress) rising.part(0.95, 1.0)(1.0);
+  if (progress) whole(1.0);
   return regression;
 }
 

@@ -155,29 +155,29 @@ MaterialConversion::MaterialConversion(const Request& request) {
   const auto file = member<std::string>(request, "converters");
   if (file) read_ = std::make_shared<const ConverterList>(read_converters(*file, set));
   const ConverterGraph graph = read_ ? graph_of(*read_) : shipped_graph(set);
-  choice_ = choose_conversion(asked, graph);
-  built_ = std::make_shared<const BuiltConversion>(build_conversion(choice_, asked.via, graph, set));
+  built_ = std::make_shared<const BuiltConversion>(
+      build_conversion(choose_conversion(asked, graph), asked.via, graph, set));
 }
 
 MaterialConversion MaterialConversion::load(const std::string& path,
                                             const std::optional<std::string>& source_workflow) {
   const FittedConverter fit = load_fitted_converter(path);
-  MaterialConversion conversion;
   BuiltConversion built;
   if (const auto* data = std::get_if<ConverterData>(&fit)) {
-    conversion.choice_.source_brdf = data->info.source.model;
-    conversion.choice_.target_brdf = data->info.target.model;
-    built = build_conversion(conversion.choice_, make_converter(*data, best_instruction_set()));
+    built.choice.source_brdf = data->info.source.model;
+    built.choice.target_brdf = data->info.target.model;
+    built = build_conversion(built.choice, make_converter(*data, best_instruction_set()));
   } else if (const auto* warp = std::get_if<WarpMapFit>(&fit)) {
     const WorkflowKind source =
         source_workflow == "metallic" ? WorkflowKind::kMetallic : WorkflowKind::kSpecular;
-    conversion.choice_ = choice_of_warp(*warp, source, RoughnessEncoding::kRoughness);
-    built.material = make_warp_converter(*warp, *conversion.choice_.source, best_instruction_set());
+    built.choice = choice_of_warp(*warp, source, RoughnessEncoding::kRoughness);
+    built.material = make_warp_converter(*warp, *built.choice.source, best_instruction_set());
   } else {
     throw input_error(path +
                       ": converts between workflows, which need no fit (give their names as source "
                       "and target)");
   }
+  MaterialConversion conversion;
   conversion.built_ = std::make_shared<const BuiltConversion>(std::move(built));
   return conversion;
 }
@@ -213,18 +213,19 @@ std::size_t MaterialConversion::target_channels(const std::string& parameter,
 nb::dict MaterialConversion::describe() const {
   const Converter& converter = built_->converter();
   const ConverterInfo &info = converter.info(), &domain = built_->domain();
+  const ConversionChoice& choice = built_->choice;
   const auto range = [](const Range& covered) { return nb::make_tuple(covered.min, covered.max); };
   nb::dict text;
   text["id"] = info.id;
-  text["source"] = choice_.is_material() ? model_of(*choice_.source) : info.source.model;
-  text["target"] = choice_.is_material() ? model_of(*choice_.target) : info.target.model;
-  text["source_brdf"] = choice_.source_brdf;
-  text["target_brdf"] = choice_.target_brdf;
-  text["is_material"] = choice_.is_material();
+  text["source"] = choice.is_material() ? model_of(*choice.source) : info.source.model;
+  text["target"] = choice.is_material() ? model_of(*choice.target) : info.target.model;
+  text["source_brdf"] = choice.source_brdf;
+  text["target_brdf"] = choice.target_brdf;
+  text["is_material"] = choice.is_material();
   text["sources"] = names_of_parameters(converter.sources());
   text["targets"] = names_of_parameters(converter.targets());
-  text["roughness_encoding"] = std::string(encoding_name(choice_.source_width(info)));
-  text["output_encoding"] = std::string(encoding_name(choice_.target_width(info)));
+  text["roughness_encoding"] = std::string(encoding_name(built_->source_width()));
+  text["output_encoding"] = std::string(encoding_name(built_->target_width()));
   text["roughness_domain"] = range(domain.roughness);
   text["specular_domain"] = range(domain.specular);
   text["models"] = built_->path.steps.empty() ? std::vector<std::string>{} : path_models(built_->path);
@@ -235,8 +236,8 @@ nb::dict MaterialConversion::describe() const {
   const auto difference = picture_difference(built_->path);
   text["picture_difference"] = difference ? nb::object(nb::cast(difference->converted)) : nb::none();
   text["closer"] = built_->closer ? nb::object(nb::cast(target_model(*built_->closer))) : nb::none();
-  text["notes"] = choice_.notes;
-  text["assumptions"] = choice_.assumptions;
+  text["notes"] = choice.notes;
+  text["assumptions"] = choice.assumptions;
   text["instructions"] = std::string(instruction_set_name(info.instructions));
   return text;
 }

@@ -36,7 +36,6 @@ class MaterialConversion {
   MaterialConversion() = default;
 
   std::shared_ptr<const ConverterList> read_;  // of a file; null for the shipped ones
-  ConversionChoice choice_;
   std::shared_ptr<const BuiltConversion> built_;
 };
 

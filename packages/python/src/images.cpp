@@ -265,9 +265,8 @@ class PythonImages : public ImageLibrary {
  public:
   explicit PythonImages(const nb::object& images) : images_(images), codec_(images) {}
   // Does nothing, because the objects in Python have their own limits for memory (images.py).
-  void set_limits(const ImageLimits& limits) const override {
-    if (limits.threads > 0)
-      in_python(ErrorKind::kInput, [&] { images_->attr("set_thread_count")(limits.threads); });
+  void set_limits(int threads, std::uint64_t) const override {
+    if (threads > 0) in_python(ErrorKind::kInput, [&] { images_->attr("set_thread_count")(threads); });
   }
   std::unique_ptr<StoredImage> open(const fs::path& path, int part) const override {
     return in_python(ErrorKind::kInput, [&] {

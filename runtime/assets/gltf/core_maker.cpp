@@ -43,19 +43,21 @@ CoreTexts CoreMaker::convert(GltfMaterial& material, AssetMaterial& report) {
 }
 
 CoreTexts CoreMaker::of_factors(const GltfMaterial& material, AssetMaterial& report) const {
-  const MetalRoughFactors result = metal_rough_of(converted(*converter_, values_of(workflow_, material)));
-  report.factors = {reported("base_color", {result.base_color.begin(), result.base_color.end()}),
-                    reported("metallic", {result.metallic}), reported("roughness", {result.roughness})};
+  const MaterialValues result = converted(*converter_, values_of(workflow_, material));
+  const std::vector<float>& base = result.at(Parameter::kBaseColor);
+  const float metallic = result.at(Parameter::kMetallic)[0], roughness = result.at(Parameter::kRoughness)[0];
+  report.factors = {reported("base_color", base), reported("metallic", {metallic}),
+                    reported("roughness", {roughness})};
   const auto &color = material[color_of(workflow_)].factor,
              &other = material[other_color_of(workflow_)].factor;
   CoreTexts texts;
   for (std::size_t c = 0; c < 3; ++c)
-    texts.base_color[c] = text_among(result.base_color[c], color[c], other[c]);
+    texts.base_color[c] = text_among(base[c], color[c], other[c]);
   texts.base_color[3] = color[3].text;
-  texts.metallic = factor_text(result.metallic, material[GltfInput::kMetallic].factor[0]);
-  texts.roughness = factor_text(result.roughness, material[GltfInput::kRoughness].factor[0]);
-  texts.has_metal = result.metallic > 0.0f;
-  texts.residual = static_cast<double>(result.residual);
+  texts.metallic = factor_text(metallic, material[GltfInput::kMetallic].factor[0]);
+  texts.roughness = factor_text(roughness, material[GltfInput::kRoughness].factor[0]);
+  texts.has_metal = metallic > 0.0f;
+  texts.residual = static_cast<double>(result.at(Parameter::kResidual)[0]);
   return texts;
 }
 

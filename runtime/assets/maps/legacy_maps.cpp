@@ -55,9 +55,9 @@ void convert_legacy(bool as_dielectric, Block& block) {
       roughness[i] = static_cast<float>(result.roughness);
     } else {
       const MetalRoughFactors result = core_of_legacy(material);
-      for (std::size_t c = 0; c < 3; ++c) base[c][i] = result.base_color[c];
-      metallic[i] = result.metallic;
-      roughness[i] = result.roughness;
+      for (std::size_t c = 0; c < 3; ++c) base[c][i] = static_cast<float>(result.base_color[c]);
+      metallic[i] = static_cast<float>(result.metallic);
+      roughness[i] = static_cast<float>(result.roughness);
     }
   }
 }
@@ -114,10 +114,10 @@ void settle_specular(const ImagePixels& f0, PixelType type, LegacyMapResult& res
 void settle_base(const LegacyMaps& maps, std::optional<ImagePixels> base, LegacyMapResult& result) {
   result.keeps_diffuse = !base;
   if (!base) {
-    result.base = maps.factors.diffuse;
+    result.factors.base_color = maps.factors.diffuse;
   } else if (hardly_varies(*base, 0) && hardly_varies(*base, 1) && hardly_varies(*base, 2)) {
     const std::array<float, 4> texel = first_texel(*base);
-    for (std::size_t c = 0; c < 3; ++c) result.base[c] = static_cast<double>(linear_of_srgb(texel[c]));
+    for (std::size_t c = 0; c < 3; ++c) result.factors.base_color[c] = static_cast<double>(linear_of_srgb(texel[c]));
   } else {
     result.base_color = std::move(base);
   }
@@ -157,8 +157,8 @@ LegacyMapResult converted_maps(const LegacyMaps& maps) {
   LegacyMapResult result;
   settle_base(maps, std::move(made.base_color), result);
   result.metal_rough = std::move(made.metal_rough);
-  result.metallic = static_cast<double>(made.metallic);
-  result.roughness = static_cast<double>(made.roughness);
+  result.factors.metallic = static_cast<double>(made.metallic);
+  result.factors.roughness = static_cast<double>(made.roughness);
   if (!maps.as_dielectric) return result;
   if (maps.specular != nullptr || maps.exponent != nullptr) {
     settle_specular(f0, model.type, result);

@@ -20,12 +20,11 @@ struct LegacyMaps {
 };
 
 struct LegacyMapResult {
-  // In sRGB. It is unset if base color is `base`, or the diffuse map times `base`.
+  MetalRoughFactors factors;  // the base color is 1 if there is a map of it
+  // In sRGB. It is unset if base color is its factor, or the diffuse map times this factor.
   std::optional<ImagePixels> base_color;
-  bool keeps_diffuse = false;  // true if base color is the diffuse map times `base`, within 1/255
-  std::array<double, 3> base = {1.0, 1.0, 1.0};
+  bool keeps_diffuse = false;  // true if base color is the diffuse map times its factor, within 1/255
   std::optional<ImagePixels> metal_rough;  // packed as in glTF; unset if both are constant
-  double metallic = 1.0, roughness = 1.0;  // factors
   // Only for a dielectric. The color is F0 / F in sRGB, and alpha is F / `specular_factor`.
   std::optional<ImagePixels> specular;
   // Only for a dielectric. It is F, or with a map the largest F, of which alpha is a fraction.

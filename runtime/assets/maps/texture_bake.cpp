@@ -15,20 +15,18 @@
 namespace remap {
 namespace {
 
-struct TextureCoordinates {
-  double u = 0.0, v = 0.0;
-};
+using TextureCoordinates = std::array<double, 2>;  // u and v
 
 // Applies scale, then rotation, then offset. A positive angle turns counter-clockwise on screen, with v
 // downwards. three.js (Matrix3.setUvTransform) and Khronos' sample viewer do the same.
 TextureCoordinates transformed(const TextureTransform& transform, const TextureCoordinates& at) {
-  const double u = at.u * transform.scale[0], v = at.v * transform.scale[1];
+  const double u = at[0] * transform.scale[0], v = at[1] * transform.scale[1];
   const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
   return {cosine * u + sine * v + transform.offset[0], cosine * v - sine * u + transform.offset[1]};
 }
 
 TextureCoordinates untransformed(const TextureTransform& transform, const TextureCoordinates& at) {
-  const double u = at.u - transform.offset[0], v = at.v - transform.offset[1];
+  const double u = at[0] - transform.offset[0], v = at[1] - transform.offset[1];
   const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
   return {(cosine * u - sine * v) / transform.scale[0], (sine * u + cosine * v) / transform.scale[1]};
 }
@@ -59,9 +57,9 @@ void change_colors(const ImagePixels& pixels, std::vector<float>& values, const 
 // Writes the values of the map at texture coordinates, from its linear values.
 void sample(const ImagePixels& map, const std::vector<float>& values, const TextureCoordinates& at,
             float* out) {
-  if (!std::isfinite(at.u) || !std::isfinite(at.v))
+  if (!std::isfinite(at[0]) || !std::isfinite(at[1]))
     throw input_error(std::string(kTransformExtension) + ": its numbers are too large to bake");
-  const RepeatedPlace column = place_at(at.u, map.width), row = place_at(at.v, map.height);
+  const RepeatedPlace column = place_at(at[0], map.width), row = place_at(at[1], map.height);
   const auto mixed = [&](std::size_t y, std::size_t channel) {
     const float* const first = values.data() + y * map.width * map.channels + channel;
     return first[column.before * map.channels] * (1.0f - column.share) +
@@ -79,8 +77,8 @@ Matrix steps_between(const TextureTransform& from, const TextureTransform& to) {
   for (std::size_t i = 0; i < 2; ++i) {
     const TextureCoordinates moved =
         transformed(to, untransformed(from, {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0}));
-    steps[0][i] = moved.u - origin.u;
-    steps[1][i] = moved.v - origin.v;
+    steps[0][i] = moved[0] - origin[0];
+    steps[1][i] = moved[1] - origin[1];
   }
   return steps;
 }
@@ -99,7 +97,7 @@ bool is_within_one(const TextureTransform& transform) {
   for (const double u : {0.0, 1.0})
     for (const double v : {0.0, 1.0}) {
       const TextureCoordinates at = transformed(transform, {u, v});
-      for (const double coordinate : {at.u, at.v})
+      for (const double coordinate : {at[0], at[1]})
         if (!(coordinate > -kRounding && coordinate < 1.0 + kRounding)) return false;
     }
   return true;

@@ -32,14 +32,6 @@ std::unique_ptr<Converter> asset_converter(const char* source, const char* targe
   return has_dielectric ? make_dielectric_converter(stages, set) : make_workflow_converter(stages, set);
 }
 
-MetalRoughFactors metal_rough_of(const MaterialValues& values) {
-  const std::vector<float>& base = values.at(Parameter::kBaseColor);
-  return {{base[0], base[1], base[2]},
-          values.at(Parameter::kMetallic)[0],
-          values.at(Parameter::kRoughness)[0],
-          values.at(Parameter::kResidual)[0]};
-}
-
 float roughness_of(double glossiness) { return static_cast<float>(1.0 - glossiness); }
 
 double f0_of_index(double ior) {

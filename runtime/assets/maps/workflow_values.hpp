@@ -23,14 +23,10 @@ std::unique_ptr<Converter> asset_converter(const char* source, const char* targe
 
 // A MetalRoughFactors has linear values, 0 to 1.
 struct MetalRoughFactors {
-  std::array<float, 3> base_color = {1.0f, 1.0f, 1.0f};
-  float metallic = 1.0f;
-  float roughness = 1.0f;
-  float residual = 0.0f;  // the part that metal-rough cannot express (Parameter::kResidual)
+  std::array<double, 3> base_color = {1.0, 1.0, 1.0};
+  double metallic = 1.0;
+  double roughness = 1.0;
 };
-
-// Returns the result of a conversion to gltf, with its diagnosis.
-MetalRoughFactors metal_rough_of(const MaterialValues& values);
 
 // Returns 1 - glossiness, rounded once.
 float roughness_of(double glossiness);

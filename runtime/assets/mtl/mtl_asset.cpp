@@ -51,8 +51,7 @@ std::string argument(const std::string& file) { return (file.starts_with('-') ? 
 
 // An MtlResult is the result of a material: numbers, and names of new images.
 struct MtlResult {
-  std::array<double, 3> base{};
-  double metallic = 0.0, roughness = 1.0;
+  MetalRoughFactors factors;
   bool keeps_map = false;  // true if map_Kd stays
   std::string base_file;
   std::string roughness_map, metallic_map;  // arguments of map_Pr and map_Pm
@@ -106,7 +105,7 @@ class BlockEditor {
   void write(const MtlResult& result) {
     const std::array<double, 3> white = {1.0, 1.0, 1.0};
     const bool has_own_base = !result.base_file.empty();
-    write_diffuse(has_own_base ? white : result.base);
+    write_diffuse(has_own_base ? white : result.factors.base_color);
     if (surface_.diffuse_map && has_own_base) {
       splices_.push_back({surface_.diffuse_map->name, result.base_file});
       for (const TextSpan levels : surface_.diffuse_map->levels) splices_.push_back({levels, ""});
@@ -115,8 +114,8 @@ class BlockEditor {
     } else if (has_own_base) {
       add("map_Kd " + placing_options(surface_) + result.base_file);
     }
-    add("Pr " + (result.roughness_map.empty() ? float_text_of(result.roughness) : "1"));
-    add("Pm " + (result.metallic_map.empty() ? float_text_of(result.metallic) : "1"));
+    add("Pr " + (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "1"));
+    add("Pm " + (result.metallic_map.empty() ? float_text_of(result.factors.metallic) : "1"));
     if (!result.roughness_map.empty()) add("map_Pr " + result.roughness_map);
     if (!result.metallic_map.empty()) add("map_Pm " + result.metallic_map);
     append();
@@ -227,9 +226,9 @@ class MtlEditor {
       report.becomes = becomes_text_of(result, surface);
       if (result.roughness_map.empty() && result.metallic_map.empty() && result.base_file.empty() &&
           !result.keeps_map)
-        report.factors = {{"base_color", {result.base.begin(), result.base.end()}},
-                          {"metallic", {result.metallic}},
-                          {"roughness", {result.roughness}}};
+        report.factors = {{"base_color", {result.factors.base_color.begin(), result.factors.base_color.end()}},
+                          {"metallic", {result.factors.metallic}},
+                          {"roughness", {result.factors.roughness}}};
       report.state = MaterialState::kConverted;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
@@ -241,39 +240,28 @@ class MtlEditor {
 
   // Returns metallic and roughness that the maker of the file wrote in other statements.
   static MtlResult as_written(const MtlSurface& surface) {
-    const MetalRoughNumbers numbers = metal_rough_of(surface, true);
-    MtlResult result{
-        numbers.base, numbers.metallic, numbers.roughness, surface.diffuse_map.has_value(), "", "", ""};
+    MtlResult result{metal_rough_of(surface, true), surface.diffuse_map.has_value(), "", "", ""};
     if (surface.roughness_map) result.roughness_map = arguments_of(*surface.roughness_map);
     if (surface.metallic_map) result.metallic_map = arguments_of(*surface.metallic_map);
     return result;
   }
 
-  MtlResult converted(const MtlSurface& surface, const MtlReflection& reflection, AssetMaterial& report) {
+  MtlResult converted(const MtlSurface& surface, const LegacyMaterial& factors, AssetMaterial& report) {
     const bool has_maps = surface.diffuse_map || surface.specular_map || surface.exponent_map;
-    if (has_maps && reflection.has_highlight) return converted_with_maps(surface, reflection, report);
-    const MetalRoughFactors core = reflection.has_highlight ? core_of_legacy(reflection.factors)
-                                                            : core_of_diffuse(reflection.factors.diffuse);
-    MtlResult result;
-    for (std::size_t c = 0; c < 3; ++c) result.base[c] = static_cast<double>(core.base_color[c]);
-    result.metallic = static_cast<double>(core.metallic);
-    result.roughness = static_cast<double>(core.roughness);
-    result.keeps_map = surface.diffuse_map.has_value();
-    return result;
+    if (has_maps && factors.has_highlight()) return converted_with_maps(surface, factors, report);
+    return {core_of_legacy(factors), surface.diffuse_map.has_value(), "", "", ""};
   }
 
   // Converts maps. Materials with the same maps and factors share the result.
-  MtlResult converted_with_maps(const MtlSurface& surface, const MtlReflection& reflection,
+  MtlResult converted_with_maps(const MtlSurface& surface, const LegacyMaterial& factors,
                                 AssetMaterial& report) {
     if (surface.exponent_map) report.warnings.push_back(exponent_warning(surface));
-    const std::string key = key_of(surface, reflection.factors);
+    const std::string key = key_of(surface, factors);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     const LegacyMapResult converted =
-        converted_maps(load_maps(surface, reflection.factors, images_, options_, report.warnings));
+        converted_maps(load_maps(surface, factors, images_, options_, report.warnings));
     MtlResult result;
-    result.base = converted.base;
-    result.metallic = converted.metallic;
-    result.roughness = converted.roughness;
+    result.factors = converted.factors;
     result.keeps_map = converted.keeps_diffuse;
     if (converted.base_color) result.base_file = add_image(*converted.base_color, surface, "_baseColor");
     if (converted.metal_rough && !is_constant_channel(*converted.metal_rough, 1))
@@ -312,9 +300,9 @@ class MtlEditor {
     if (!result.base_file.empty())
       text += "map";
     else
-      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") + color_text(result.base);
-    text += ", metallic " + (result.metallic_map.empty() ? float_text_of(result.metallic) : "map");
-    return text + ", roughness " + (result.roughness_map.empty() ? float_text_of(result.roughness) : "map");
+      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") + color_text(result.factors.base_color);
+    text += ", metallic " + (result.metallic_map.empty() ? float_text_of(result.factors.metallic) : "map");
+    return text + ", roughness " + (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "map");
   }
 
   const MtlDocument& document_;

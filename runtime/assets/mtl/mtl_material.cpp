@@ -343,9 +343,9 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
   return cover;
 }
 
-MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core) {
-  MetalRoughNumbers numbers;
-  numbers.base = surface.diffuse.value_or(numbers.base);
+MetalRoughFactors metal_rough_of(const MtlSurface& surface, bool is_core) {
+  MetalRoughFactors numbers;
+  numbers.base_color = surface.diffuse.value_or(numbers.base_color);
   numbers.metallic = surface.metallic_map ? 1.0 : surface.metallic.value_or(0.0);
   numbers.roughness = surface.roughness_map ? 1.0 : surface.roughness.value_or(1.0);
   // Core cannot remove the highlight of a dielectric. It is least visible at roughness 1.
@@ -353,26 +353,28 @@ MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core) {
   return numbers;
 }
 
-MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings) {
+LegacyMaterial reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings) {
   constexpr double kDiffuseDefault = 0.8;
   const std::array<double, 3> white = {1.0, 1.0, 1.0}, black{};
   const bool has_map = surface.diffuse_map.has_value();
-  MtlReflection reflection;
-  LegacyMaterial& factors = reflection.factors;
+  LegacyMaterial factors;
   factors.diffuse = surface.diffuse.value_or(
       has_map ? white : std::array<double, 3>{kDiffuseDefault, kDiffuseDefault, kDiffuseDefault});
   if (!surface.diffuse && !has_map)
     warnings.push_back("has no Kd: " + number_text(kDiffuseDefault) + " is used instead");
   factors.specular = surface.specular.value_or(surface.specular_map ? white : black);
   const bool is_shaded_by_specular = surface.illumination.value_or(2.0) >= 2.0;
-  const bool is_bright = std::ranges::any_of(factors.specular, [](double value) { return value > 0.0; });
-  if (!is_shaded_by_specular || !is_bright) return reflection;
+  if (!is_shaded_by_specular || !factors.has_highlight()) {
+    factors.specular = black;
+    return factors;
+  }
   if (!surface.exponent && surface.exponent_map)
     throw input_error("has map_Ns but no Ns, which the map multiplies (add a line Ns)");
   if (surface.exponent.value_or(0.0) <= 0.0) {
     warnings.push_back((surface.exponent ? "has Ns " + number_text(*surface.exponent) : "has no Ns") +
                        ", so its Ks gives no highlight (write the exponent of the highlight as Ns)");
-    return reflection;
+    factors.specular = black;
+    return factors;
   }
   factors.exponent = *surface.exponent;
   if (factors.exponent < LegacyMaterial::kLeastExponent) {
@@ -380,8 +382,7 @@ MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>&
     warnings.push_back("Ns " + number_text(*surface.exponent) +
                        ": the highlight covers the whole surface, and 1 is used instead");
   }
-  reflection.has_highlight = true;
-  return reflection;
+  return factors;
 }
 
 }  // namespace remap

@@ -89,25 +89,15 @@ struct MtlCover {
 MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlMaker maker,
                         std::vector<std::string>& warnings);
 
-// A MetalRoughNumbers holds metallic and roughness of a surface as numbers. If one of them has a map, its
-// number is 1, and the number in the file is ignored.
-struct MetalRoughNumbers {
-  std::array<double, 3> base = {1.0, 1.0, 1.0};
-  double metallic = 0.0, roughness = 1.0;
-};
-// If `is_core` is set, the target adds a highlight to dielectrics. A dielectric without a highlight then
-// becomes rough.
-MetalRoughNumbers metal_rough_of(const MtlSurface& surface, bool is_core);
+// Returns metallic and roughness of a surface as numbers. If one of them has a map, its number is 1, and the
+// number in the file is ignored. If `is_core` is set, the target adds a highlight to dielectrics. A dielectric
+// without a highlight then becomes rough.
+MetalRoughFactors metal_rough_of(const MtlSurface& surface, bool is_core);
 
-// An MtlReflection holds the factors of a surface. Maps are multiplied by them.
-struct MtlReflection {
-  LegacyMaterial factors;
-  bool has_highlight = false;
-};
-
-// Fills in missing values, and appends a warning for each: Kd .8 and Ns 0, Ks 0, or 1 with a map. These
+// Returns the factors of a surface, which multiply its maps. Without a highlight, specular is black. Fills in
+// missing values, and appends a warning for each: Kd .8 and Ns 0, Ks 0, or 1 with a map. These
 // follow J. Burkardt's description of MTL, because Alias|Wavefront's has no defaults. Throws kInput if a map
 // multiplies a missing exponent.
-MtlReflection reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings);
+LegacyMaterial reflection_of(const MtlSurface& surface, std::vector<std::string>& warnings);
 
 }  // namespace remap

@@ -197,11 +197,11 @@ void ObjMaterials::set_reflection(MaterialDraft& draft) {
   const bool is_done = draft.attempt([&] {
     if (draft.surface.is_metal_rough) return set_metal_rough(draft);
     if (is_glass(draft)) return set_glass(draft);
-    const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
+    const LegacyMaterial factors = reflection_of(draft.surface, draft.report.warnings);
     if (options_.extensions)
-      set_dielectric(draft, reflection);
+      set_dielectric(draft, factors);
     else
-      set_core(draft, reflection);
+      set_core(draft, factors);
   });
   if (is_done) return;
   draft.base = draft.surface.diffuse.value_or(kWhite);
@@ -218,8 +218,8 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
 // Uses Pr, Pm and their maps, which mean the same as in glTF. A map replaces the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
-  const MetalRoughNumbers numbers = metal_rough_of(surface, !options_.extensions);
-  draft.base = numbers.base;
+  const MetalRoughFactors numbers = metal_rough_of(surface, !options_.extensions);
+  draft.base = numbers.base_color;
   keep_diffuse_map(draft);
   draft.metallic = numbers.metallic;
   draft.roughness = numbers.roughness;
@@ -264,9 +264,9 @@ bool ObjMaterials::is_glass(MaterialDraft& draft) const {
 // Sets the index of refraction, which determines how much is reflected, and Tf, the color of transmitted
 // light.
 void ObjMaterials::set_glass(MaterialDraft& draft) {
-  const MtlReflection reflection = reflection_of(draft.surface, draft.report.warnings);
+  const LegacyMaterial factors = reflection_of(draft.surface, draft.report.warnings);
   draft.base = draft.cover.filter;
-  draft.roughness = reflection.has_highlight ? ggx_lobe(reflection.factors).roughness : 0.0;
+  draft.roughness = factors.has_highlight() ? ggx_roughness(factors) : 0.0;
   set_extension(draft, kTransmissionExtension, Json{{"transmissionFactor", 1}});
   set_extension(draft, kIorExtension, Json{{"ior", float_value(*draft.cover.refraction)}});
 }
@@ -292,31 +292,30 @@ std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(MaterialDraf
   return packed;
 }
 
-void ObjMaterials::set_core(MaterialDraft& draft, const MtlReflection& reflection) {
+void ObjMaterials::set_core(MaterialDraft& draft, const LegacyMaterial& factors) {
   const MtlSurface& surface = draft.surface;
   const bool has_maps = surface.diffuse_map || surface.specular_map || surface.exponent_map;
-  draft.base = reflection.factors.diffuse;
-  if (has_maps && reflection.has_highlight) return set_converted_maps(draft, reflection, false);
-  const MetalRoughFactors core = reflection.has_highlight ? core_of_legacy(reflection.factors)
-                                                          : core_of_diffuse(reflection.factors.diffuse);
-  for (std::size_t c = 0; c < 3; ++c) draft.base[c] = static_cast<double>(core.base_color[c]);
-  draft.metallic = static_cast<double>(core.metallic);
-  draft.roughness = static_cast<double>(core.roughness);
+  draft.base = factors.diffuse;
+  if (has_maps && factors.has_highlight()) return set_converted_maps(draft, factors, false);
+  const MetalRoughFactors core = core_of_legacy(factors);
+  draft.base = core.base_color;
+  draft.metallic = core.metallic;
+  draft.roughness = core.roughness;
   keep_diffuse_map(draft);
 }
 
-void ObjMaterials::set_dielectric(MaterialDraft& draft, const MtlReflection& reflection) {
+void ObjMaterials::set_dielectric(MaterialDraft& draft, const LegacyMaterial& factors) {
   const MtlSurface& surface = draft.surface;
-  draft.base = reflection.factors.diffuse;
-  if (!reflection.has_highlight) {
+  draft.base = factors.diffuse;
+  if (!factors.has_highlight()) {
     keep_diffuse_map(draft);
     return set_extension(draft, kSpecularExtension, Json{{"specularFactor", 0}});
   }
   // If diffuse is a map, the map is divided by 1 - F like a factor.
-  const LegacyDielectric result = dielectric_of_legacy(reflection.factors);
+  const LegacyDielectric result = dielectric_of_legacy(factors);
   const bool is_factor = std::ranges::none_of(result.base_color, [](double value) { return value >= 1.0; });
   if (surface.specular_map || surface.exponent_map || (surface.diffuse_map && !is_factor))
-    return set_converted_maps(draft, reflection, true);
+    return set_converted_maps(draft, factors, true);
   draft.base = result.base_color;
   draft.roughness = result.roughness;
   keep_diffuse_map(draft);
@@ -329,18 +328,18 @@ void ObjMaterials::set_extension(MaterialDraft& draft, std::string_view name, Js
   draft.material["extensions"][std::string(name)] = std::move(value);
 }
 
-void ObjMaterials::set_converted_maps(MaterialDraft& draft, const MtlReflection& reflection,
+void ObjMaterials::set_converted_maps(MaterialDraft& draft, const LegacyMaterial& factors,
                                       bool as_dielectric) {
   const MtlSurface& surface = draft.surface;
   const MtlMap& data_map = surface.specular_map   ? *surface.specular_map
                            : surface.exponent_map ? *surface.exponent_map
                                                   : *surface.diffuse_map;
   if (surface.exponent_map) draft.report.warnings.push_back(exponent_warning(surface));
-  ConvertedImages& images = converted_images(draft, reflection, as_dielectric, data_map);
+  ConvertedImages& images = converted_images(draft, factors, as_dielectric, data_map);
   const LegacyMapResult& result = images.result;
-  draft.base = result.base;
-  draft.metallic = as_dielectric ? 0.0 : result.metallic;
-  draft.roughness = result.roughness;
+  draft.base = result.factors.base_color;
+  draft.metallic = as_dielectric ? 0.0 : result.factors.metallic;
+  draft.roughness = result.factors.roughness;
   if (result.keeps_diffuse) keep_diffuse_map(draft);
   if (images.has_own_base) {
     draft.base_map = surface.diffuse_map ? &*surface.diffuse_map : &data_map;
@@ -361,16 +360,16 @@ void ObjMaterials::set_converted_maps(MaterialDraft& draft, const MtlReflection&
 // Materials with the same maps, factors and opacity share the result. For the first of them, `draft` has the
 // base color, so that opacity can be added before the image is stored.
 ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& draft,
-                                                              const MtlReflection& reflection,
+                                                              const LegacyMaterial& factors,
                                                               bool as_dielectric, const MtlMap& data_map) {
   MtlImages& images = draft.library.images;
   const std::optional<MtlMap>& opacity_map = draft.cover.opacity_map;
   const std::string opacity = opacity_map ? opacity_map->file + '\0' + opacity_map->options : "";
   const std::string key = images.folder() + '\0' + opacity + '\0' + (is_transparent(draft) ? "1" : "0") +
-                          key_of(draft.surface, reflection.factors);
+                          key_of(draft.surface, factors);
   std::shared_ptr<ConvertedImages>& known = converted_[key];
   if (known && (!known->has_own_base || known->base != kNoImage)) return *known;
-  LegacyMaps maps = load_maps(draft.surface, reflection.factors, images, options_, draft.report.warnings);
+  LegacyMaps maps = load_maps(draft.surface, factors, images, options_, draft.report.warnings);
   maps.as_dielectric = as_dielectric;
   auto made = std::make_shared<ConvertedImages>();
   made->result = converted_maps(maps);

@@ -46,10 +46,10 @@ class ObjMaterials {
   void set_specular_level(MaterialDraft& draft);
   bool is_glass(MaterialDraft& draft) const;
   void set_glass(MaterialDraft& draft);
-  void set_core(MaterialDraft& draft, const MtlReflection& reflection);
-  void set_dielectric(MaterialDraft& draft, const MtlReflection& reflection);
-  void set_converted_maps(MaterialDraft& draft, const MtlReflection& reflection, bool as_dielectric);
-  ConvertedImages& converted_images(MaterialDraft& draft, const MtlReflection& reflection, bool as_dielectric,
+  void set_core(MaterialDraft& draft, const LegacyMaterial& factors);
+  void set_dielectric(MaterialDraft& draft, const LegacyMaterial& factors);
+  void set_converted_maps(MaterialDraft& draft, const LegacyMaterial& factors, bool as_dielectric);
+  ConvertedImages& converted_images(MaterialDraft& draft, const LegacyMaterial& factors, bool as_dielectric,
                                     const MtlMap& data_map);
   void set_extension(MaterialDraft& draft, std::string_view name, Json value);
   void keep_diffuse_map(MaterialDraft& draft);

@@ -1,6 +1,7 @@
 // This file describes conversions by the names of their ends: models, workflows, renderers and aliases.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,7 +59,8 @@ struct ConversionChoice {
   bool is_closest = false;  // true if the user chose a renderer, and target_brdf is its closest model
   // Both or neither are set. Without them, the conversion covers only roughness and specular.
   std::optional<WorkflowEnd> source, target;
-  std::optional<SurfaceTranslation> translation;  // of whole surfaces, instead of a path between BRDFs
+  std::optional<SurfaceTranslation> translation;      // of whole surfaces, instead of a path between BRDFs
+  std::map<Parameter, std::vector<float>> constants;  // values of source parameters that have no map
   double prior = kCleanPrior;
   bool changes_nothing = false;          // both ends are the same material; only files and encodings change
   std::vector<std::string> notes;        // explain the user's model names
@@ -70,14 +72,6 @@ struct ConversionChoice {
   }
   // Returns true if metallic is computed from other values.
   bool finds_metallic() const noexcept { return is_to_metallic() && !changes_nothing && !translation; }
-  // Returns the default meaning of roughness at each end. `info` describes the converter, which may use
-  // another convention inside if it converts a material.
-  RoughnessEncoding source_width(const ConverterInfo& info) const noexcept {
-    return source ? width_of(*source) : info.source.roughness;
-  }
-  RoughnessEncoding target_width(const ConverterInfo& info) const noexcept {
-    return target ? width_of(*target) : info.target.roughness;
-  }
   // Return the parameters of the source and those of the target, in the order of Parameter.
   std::vector<Parameter> sources() const;
   std::vector<Parameter> targets() const;
@@ -87,28 +81,38 @@ struct ConversionChoice {
 // Resolves a request. Throws kUsage for an unknown name, and for a workflow or F0 that contradicts the model.
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph);
 
-// A BuiltConversion holds the converter of a choice and its parts.
+// A BuiltConversion holds a choice, its converter and the parts of this converter.
 struct BuiltConversion {
-  std::unique_ptr<Converter> owned_brdf;  // set if `brdf` does not belong to the graph
-  const Converter* brdf = nullptr;        // for width and specular; null if both ends share a BRDF
-  ConverterPath path;                     // the steps of `brdf`
-  std::optional<ConverterPath> closer;  // path to a model that matches the highlight more closely (path.hpp)
-  std::unique_ptr<Converter> material;  // for whole materials; null if only width and specular change
+  ConversionChoice choice;
+  std::unique_ptr<Converter> owned_brdf = {};  // set if `brdf` does not belong to the graph
+  const Converter* brdf = nullptr;             // for width and specular; null if both ends share a BRDF
+  ConverterPath path = {};                     // the steps of `brdf`
+  std::optional<ConverterPath> closer =
+      {};  // path to a model that matches the highlight more closely (path.hpp)
+  std::unique_ptr<Converter> material = {};  // for whole materials; null if only width and specular change
 
   // Returns the converter for the whole conversion.
   const Converter& converter() const noexcept { return material ? *material : *brdf; }
   const ConverterInfo& info() const noexcept { return converter().info(); }
+  // Return the default meaning of roughness at each end. A converter of materials may use another convention
+  // inside.
+  RoughnessEncoding source_width() const noexcept {
+    return choice.source ? width_of(*choice.source) : info().source.roughness;
+  }
+  RoughnessEncoding target_width() const noexcept {
+    return choice.target ? width_of(*choice.target) : info().target.roughness;
+  }
   // Returns the info of the converter whose domain limits the conversion.
   const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };
 
 // Makes the converter of a choice by the best path through `via`. The converters of `graph` must outlive the
 // result. Throws kUsage if no path exists, kNumeric if a converter fails its self-test.
-BuiltConversion build_conversion(const ConversionChoice& choice, const std::vector<std::string>& via,
+BuiltConversion build_conversion(ConversionChoice choice, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set = best_instruction_set());
 
 // Makes this from one converter of width and specular, for example from a fit.
-BuiltConversion build_conversion(const ConversionChoice& choice, std::unique_ptr<Converter> brdf);
+BuiltConversion build_conversion(ConversionChoice choice, std::unique_ptr<Converter> brdf);
 
 // Returns the choice for a warp. Each end has plain diffuse, specular, and a width with the encoding `width`.
 // A metallic source is read by equation (2).

@@ -111,7 +111,8 @@ class MaterialRows {
 // lights that the fit did not use.
 struct PictureDifference {
   double converted = 0.0;
-  double copied = 0.0;  // the same if numbers are copied
+  std::optional<double> copied;  // the same if numbers are copied
+  bool is_estimate = false;      // true for several steps, or if it comes from an image error
   bool operator==(const PictureDifference&) const = default;
 };
 

@@ -39,22 +39,16 @@ struct ConverterPath {
   double expected_error = 0.0;
 };
 
-// A PathDifference states how much pictures of a path's results differ from pictures of the source. People
-// see this difference.
-struct PathDifference {
-  double converted = 0.0;        // RMSE of display values, percent
-  std::optional<double> copied;  // for copied numbers; set only for a single step that was measured
-  bool is_estimate = false;      // true for several steps, or if it comes from an image error
-};
-
 // This is the expected RMSE for an image error of 1. It is the median of the 42 pairs of Mitsuba's models,
 // and half of the pairs lie between 13 and 28. Image errors use one light from the side, but pictures use
 // environments.
 inline constexpr double kPercentOfImageError = 23.0;
 
-// Adds the squares of the steps' differences, because these are usually unrelated, and takes the root.
-// Returns 0 for a path without steps. Returns nothing if a step has neither pictures nor an image error.
-std::optional<PathDifference> picture_difference(const ConverterPath& path);
+// Returns how far pictures of a path's results differ from pictures of the source. `copied` is set only for a
+// single step that was measured. Adds the squares of the steps' differences, because these are usually
+// unrelated, and takes the root. Returns 0 for a path without steps. Returns nothing if a step has neither
+// pictures nor an image error.
+std::optional<PictureDifference> picture_difference(const ConverterPath& path);
 
 std::vector<std::string> path_models(const ConverterPath& path);
 // Returns the last model of the path.

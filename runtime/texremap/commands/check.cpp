@@ -119,7 +119,7 @@ void check(const CheckOptions& options) {
   Progress progress("materials", reports.size(), !options.quiet);
   const std::size_t threads =
       options.thread_count > 0 ? options.thread_count : std::max(1u, std::thread::hardware_concurrency());
-  set_image_limits({0, memory_limit(options.memory_megabytes) / threads});
+  set_image_limits(0, memory_limit(options.memory_megabytes) / threads);
   ApartJobs apart;
   apart.count = reports.size();
   apart.at_once = static_cast<unsigned>(threads);

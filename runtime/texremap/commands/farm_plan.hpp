@@ -30,11 +30,9 @@ struct PlannedFarm {
 // Throws kUsage for words that the files of a plan cannot hold. A line break would begin a script line.
 void require_writable(PlanKind kind, const PlannedFarm& farm);
 
-// A PlanFiles holds the files of a plan, by their names, and the shell command that submits them.
-struct PlanFiles {
-  std::vector<std::pair<std::string, std::string>> files;
-  std::string submit;
-};
-PlanFiles plan_files(PlanKind kind, const PlannedFarm& farm);
+// Returns the files of a plan, each with its name and its text.
+std::vector<std::pair<std::string, std::string>> plan_files(PlanKind kind, const PlannedFarm& farm);
+// Returns the shell command that submits the files of a plan.
+std::string submit_command(PlanKind kind, const PlannedFarm& farm);
 
 }  // namespace remap

@@ -24,41 +24,40 @@ struct IndexOptions {
   bool assets = false, force = false, json = false, quiet = false;
 };
 
-Listing listing_of_sets(const IndexOptions& options) {
+TreeManifest tree_of_sets(const IndexOptions& options) {
   const Naming naming = options.names.empty() ? built_in_naming() : read_naming(options.names);
-  Listing listing;
-  listing.found = find_sets(options.folder, {}, naming);
+  TreeManifest tree;
+  tree.found = find_sets(options.folder, {}, naming);
   // Refuses the second of two sets whose names differ only in case, because parts would write the same file.
   WrittenNames names;
-  std::erase_if(listing.found.sets, [&](const FoundSet& set) {
+  std::erase_if(tree.found.sets, [&](const FoundSet& set) {
     const std::filesystem::path place = options.folder / set.folder / set.name;
     const std::string other = names.take(place, display_path(options.folder / set.maps.front().path));
     if (!other.empty())
-      listing.found.problems.push_back(
+      tree.found.problems.push_back(
           {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
                                       ": its set has the same name as the set of " + other +
                                       " (rename one of the sets; upper and lower case are the same)"});
     return !other.empty();
   });
-  if (listing.found.sets.empty() && listing.found.problems.empty())
+  if (tree.found.sets.empty() && tree.found.problems.empty())
     throw usage_error(options.folder.string() +
                       ": no texture set found by file names (use --names FILE for other names, or "
                       "--assets for glTF and MTL files)");
-  return listing;
+  return tree;
 }
 
 void index(const IndexOptions& options) {
   const Stopwatch stopwatch;
   require_new(options.output, options.force);
-  Listing listing =
-      options.assets ? listing_of_assets(options.folder, options.format) : listing_of_sets(options);
-  const std::size_t unrecognised = listing.found.unrecognised.size();
+  TreeManifest tree = options.assets ? tree_of_assets(options.folder, options.format) : tree_of_sets(options);
+  const std::size_t unrecognised = tree.found.unrecognised.size();
   if (!options.quiet)
-    for (const WalkProblem& problem : listing.found.problems)
+    for (const WalkProblem& problem : tree.found.problems)
       print_message(kProgram, "failed: " + problem.message);
   const ManifestHead head =
       write_manifest(options.output, options.folder, options.names.empty() ? "" : hash_of_file(options.names),
-                     std::move(listing));
+                     std::move(tree));
   if (options.json) {
     Json json = {{"manifest", options.output.string()},
                  {std::string(name_of(kListedKinds, head.kind)), head.count},

@@ -97,7 +97,7 @@ std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
 }
 
 // Returns the stages of a material conversion, with the models at both ends.
-std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
+std::vector<std::string> stage_texts(const ConversionChoice& choice) {
   std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
   const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;
   if (from_metallic && (choice.source_brdf != choice.target_brdf || !choice.is_to_metallic()))
@@ -109,7 +109,7 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
   return stages;
 }
 
-Plan plan_of(const ConverterGraph& graph, const PathRequest& request, const WorkflowChoice& choice) {
+Plan plan_of(const ConverterGraph& graph, const PathRequest& request, const ConversionChoice& choice) {
   Plan plan;
   plan.paths = graph.find_paths(request, kPathsShown);
   plan.whole = make_chained_converter(plan.paths.front().steps)->info();
@@ -119,7 +119,7 @@ Plan plan_of(const ConverterGraph& graph, const PathRequest& request, const Work
 }
 
 void explain(const ConvertOptions& options) {
-  const WorkflowChoice choice = workflow_choice(options);
+  const ConversionChoice choice = workflow_choice(options);
   const std::vector<std::string> stages =
       choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
   std::optional<Plan> plan;

@@ -46,19 +46,19 @@ struct Measurement {
 };
 
 // Returns the entry with the largest cost, and entries at even steps through the list that is sorted by cost.
-Listing sample_of(const TreeManifest& manifest) {
+TreeManifest sample_of(const TreeManifest& manifest) {
   std::vector<std::size_t> order(manifest.costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return manifest.costs[i]; });
   const std::size_t count = std::min(kMeasuredEntries, order.size());
-  Listing sample;
-  sample.kind = manifest.head.kind;
+  TreeManifest sample;
+  sample.head.kind = manifest.head.kind;
   for (std::size_t i = 1; i <= count; ++i) {
     const std::size_t at = order[i * order.size() / count - 1];
-    if (sample.kind == ListedKind::kSets)
-      sample.found.sets.push_back(manifest.listing.found.sets[at]);
+    if (sample.head.kind == ListedKind::kSets)
+      sample.found.sets.push_back(manifest.found.sets[at]);
     else
-      sample.assets.push_back(manifest.listing.assets[at]);
+      sample.assets.push_back(manifest.assets[at]);
   }
   return sample;
 }
@@ -171,16 +171,17 @@ void plan(const PlanOptions& options) {
   farm.memory_megabytes = options.memory_megabytes > 0 ? options.memory_megabytes
                                                        : rounded_up(1.5e-6 * one.memory_bytes * threads, 100);
 
-  const PlanFiles files = plan_files(options.kind, farm);
-  for (const auto& [name, text] : files.files) require_new(options.folder / name, options.force);
+  const auto files = plan_files(options.kind, farm);
+  const std::string submit = submit_command(options.kind, farm);
+  for (const auto& [name, text] : files) require_new(options.folder / name, options.force);
   Json names = Json::list();
-  for (const auto& [name, text] : files.files) {
+  for (const auto& [name, text] : files) {
     write_file(options.folder / name, text);
     names.push_back((options.folder / name).string());
   }
   if (options.json) {
     std::cout << Json({{"files", names},
-                       {"submit", files.submit},
+                       {"submit", submit},
                        {std::string(name_of(kListedKinds, manifest.head.kind)), manifest.head.count},
                        {"parts", farm.parts},
                        {"threads", farm.threads},
@@ -204,7 +205,7 @@ void plan(const PlanOptions& options) {
       print_message(kProgram, "note: clusters with the default MaxArraySize refuse more than " +
                                   std::to_string(kMostParts) + " parts");
   }
-  std::cout << files.submit << '\n';
+  std::cout << submit << '\n';
 }
 
 }  // namespace

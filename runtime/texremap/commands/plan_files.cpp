@@ -10,6 +10,8 @@
 namespace remap {
 namespace {
 
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
 std::string shell_line(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
@@ -43,7 +45,7 @@ std::vector<std::string> merge_words(const PlannedFarm& farm) {
   return {farm.program, "merge-reports", farm.output.string(), "-o", farm.report.string(), "--force"};
 }
 
-PlanFiles slurm_files(const PlannedFarm& farm) {
+NamedTexts slurm_files(const PlannedFarm& farm) {
   const std::filesystem::path log = farm.folder / "log";
   const std::string threads = std::to_string(farm.threads);
   std::string convert = "#!/bin/sh\n#SBATCH --job-name=texremap\n#SBATCH --array=1-" +
@@ -71,17 +73,14 @@ PlanFiles slurm_files(const PlannedFarm& farm) {
       "array=$(sbatch --parsable ${1:+--array=\"$1\"} \"$here/convert.sbatch\")\n"
       "merge=$(sbatch --parsable --dependency=afterany:\"${array%%;*}\" \"$here/merge.sbatch\")\n"
       "echo \"parts: job ${array%%;*}, merge: job ${merge%%;*}\"\n";
-  return {{{"convert.sbatch", convert}, {"merge.sbatch", merge}, {"submit.sh", submit}},
-          "sh " + shell_word((farm.folder / "submit.sh").string())};
+  return {{"convert.sbatch", convert}, {"merge.sbatch", merge}, {"submit.sh", submit}};
 }
 
-PlanFiles commands_files(const PlannedFarm& farm) {
+NamedTexts commands_files(const PlannedFarm& farm) {
   std::string lines;
   for (std::size_t i = 1; i <= farm.parts; ++i)
     lines += shell_line(convert_words(farm, std::to_string(i) + "/" + std::to_string(farm.parts))) + "\n";
-  return {{{"commands.txt", lines}, {"merge.sh", "#!/bin/sh\n" + shell_line(merge_words(farm)) + "\n"}},
-          "parallel --retries 3 < " + shell_word((farm.folder / "commands.txt").string()) + "; sh " +
-              shell_word((farm.folder / "merge.sh").string())};
+  return {{"commands.txt", lines}, {"merge.sh", "#!/bin/sh\n" + shell_line(merge_words(farm)) + "\n"}};
 }
 
 // Returns a template parameter that holds a path. Farms translate such paths for each worker. The value is in
@@ -112,7 +111,7 @@ Json script_json(const std::vector<std::string>& words) {
               {"cancelation", {{"mode", "NOTIFY_THEN_TERMINATE"}, {"notifyPeriodInSeconds", 30}}}}}}}};
 }
 
-PlanFiles openjd_files(const PlannedFarm& farm) {
+NamedTexts openjd_files(const PlannedFarm& farm) {
   PlannedFarm shared = farm;  // with the parameters of the template instead of the paths
   shared.program = "{{Param.Program}}";
   shared.manifest = "{{Param.Manifest}}";
@@ -145,9 +144,7 @@ PlanFiles openjd_files(const PlannedFarm& farm) {
                        {"Tree", farm.tree.string()},
                        {"Output", farm.output.string()},
                        {"Report", farm.report.string()}};
-  return {{{"template.json", json.dump(2) + "\n"}, {"parameters.json", values.dump(2) + "\n"}},
-          "openjd run " + shell_word((farm.folder / "template.json").string()) + " --job-param " +
-              shell_word(file_uri(farm.folder / "parameters.json"))};
+  return {{"template.json", json.dump(2) + "\n"}, {"parameters.json", values.dump(2) + "\n"}};
 }
 
 }  // namespace
@@ -175,7 +172,7 @@ void require_writable(PlanKind kind, const PlannedFarm& farm) {
     refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");
 }
 
-PlanFiles plan_files(PlanKind kind, const PlannedFarm& farm) {
+NamedTexts plan_files(PlanKind kind, const PlannedFarm& farm) {
   switch (kind) {
     case PlanKind::kSlurm:
       return slurm_files(farm);
@@ -185,6 +182,20 @@ PlanFiles plan_files(PlanKind kind, const PlannedFarm& farm) {
       return commands_files(farm);
   }
   return {};
+}
+
+std::string submit_command(PlanKind kind, const PlannedFarm& farm) {
+  const auto file = [&](const char* name) { return shell_word((farm.folder / name).string()); };
+  switch (kind) {
+    case PlanKind::kSlurm:
+      return "sh " + file("submit.sh");
+    case PlanKind::kOpenJd:
+      return "openjd run " + file("template.json") + " --job-param " +
+             shell_word(file_uri(farm.folder / "parameters.json"));
+    case PlanKind::kCommands:
+      return "parallel --retries 3 < " + file("commands.txt") + "; sh " + file("merge.sh");
+  }
+  return "";
 }
 
 }  // namespace remap

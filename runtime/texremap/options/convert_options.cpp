@@ -163,7 +163,7 @@ Reader<ModelName> model_name() {
 
 namespace {
 
-Reader<GivenPart> given_part() {
+Reader<Part> given_part() {
   return {[](const std::string&, const std::string& word) {
             return part_of(word, [](const char* name) { return std::getenv(name); });
           },

@@ -86,7 +86,7 @@ struct ConvertOptions {
   bool recursive = false;
   bool follow_links = false;       // follows links that lead out of the input folder
   std::filesystem::path manifest;  // lists the sets or assets, so that the folder is not searched
-  std::optional<GivenPart> part;   // part of the manifest
+  std::optional<Part> part;        // part of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> glossiness;  // also in `maps`, as roughness

@@ -53,7 +53,7 @@ class ArrayJob {
     return std::strcmp(scheduler_.name, "LSF") != 0 || std::strcmp(text, "0") != 0;
   }
   std::string text() const { return std::string(scheduler_.index) + "=" + environment_(scheduler_.index); }
-  GivenPart part(std::optional<std::size_t> count) const;
+  Part part(std::optional<std::size_t> count) const;
 
  private:
   std::optional<std::size_t> number(const char* name) const {
@@ -85,7 +85,7 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
   return all;
 }
 
-GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
+Part ArrayJob::part(std::optional<std::size_t> count) const {
   const std::size_t index = *number(scheduler_.index);
   // If the user gives the number of parts, the array may be only some of these parts, for example the failed
   // ones. Then its first number says nothing.
@@ -101,12 +101,13 @@ GivenPart ArrayJob::part(std::optional<std::size_t> count) const {
                       " is not between " + std::to_string(first) + " and " +
                       std::to_string(first + *count - 1) + " (begin the array at " + std::to_string(first) +
                       ")");
-  const Part part{index - first + 1, *count};
-  return {part, std::string(scheduler_.name) + ": " + text() + " is part " + std::to_string(part.index) +
-                    " of " + std::to_string(part.count)};
+  const std::size_t own = index - first + 1;
+  return {own, *count,
+          std::string(scheduler_.name) + ": " + text() + " is part " + std::to_string(own) + " of " +
+              std::to_string(*count)};
 }
 
-GivenPart part_in(const ArrayJob::Environment& environment, std::optional<std::size_t> count) {
+Part part_in(const ArrayJob::Environment& environment, std::optional<std::size_t> count) {
   std::vector<ArrayJob> jobs;
   for (const Scheduler& scheduler : kSchedulers)
     if (const ArrayJob job(scheduler, environment); job.is_one()) jobs.push_back(job);
@@ -142,7 +143,7 @@ std::optional<Part> part_named(const std::string& name) {
   return Part{*index, *count};
 }
 
-GivenPart part_of(const std::string& word, const ArrayJob::Environment& environment) {
+Part part_of(const std::string& word, const ArrayJob::Environment& environment) {
   const std::string_view text = word;
   const std::size_t slash = text.find('/');
   const auto count = slash == std::string_view::npos ? std::nullopt : number_in(text.substr(slash + 1));
@@ -153,7 +154,7 @@ GivenPart part_of(const std::string& word, const ArrayJob::Environment& environm
   if (!index || !count || *index < 1 || *index > *count)
     throw usage_error("--part: invalid value '" + word +
                       "' (for four parts, use 1/4 to 4/4, auto or auto/4)");
-  return {{*index, *count}, ""};
+  return {*index, *count};
 }
 
 }  // namespace remap

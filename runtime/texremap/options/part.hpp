@@ -19,22 +19,16 @@ inline constexpr const char* kPartReport = ".jsonl";
 // parts cost about the same.
 struct Part {
   std::size_t index = 1, count = 1;
-  bool operator==(const Part&) const = default;
+  std::string note = {};  // what was understood from the environment
 };
 
 // Converts a part to `part-0012-of-0400`, and back. Returns nothing for other names.
 std::string name_of(const Part& part);
 std::optional<Part> part_named(const std::string& name);
 
-// A GivenPart is a part from the command line.
-struct GivenPart {
-  Part part;
-  std::string note;  // what was understood from the environment
-};
-
 // Reads `12/400`, `auto` or `auto/400`. With `auto`, the environment must hold the number of this job and the
 // size of the array of jobs. `auto/400` needs only the number of this job. Throws kUsage, with the name of
 // the missing value.
-GivenPart part_of(const std::string& word, const std::function<const char*(const char* name)>& environment);
+Part part_of(const std::string& word, const std::function<const char*(const char* name)>& environment);
 
 }  // namespace remap

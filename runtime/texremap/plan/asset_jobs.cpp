@@ -77,8 +77,8 @@ void add_tree(const ConvertOptions& options, JobList& list) {
                       (options.recursive ? "" : " (--recursive also searches its subfolders)"));
 }
 
-void add_listed(const ConvertOptions& options, const Listing& listing, JobList& list) {
-  for (const ListedAsset& asset : listing.assets) {
+void add_listed(const ConvertOptions& options, const TreeManifest& tree, JobList& list) {
+  for (const ListedAsset& asset : tree.assets) {
     if (!is_asset_name(asset.path))
       throw input_error(display_path(asset.path) + ": is not an asset (run texremap index again)");
     AssetWork work = asset_in_tree(asset.path, options);
@@ -86,12 +86,12 @@ void add_listed(const ConvertOptions& options, const Listing& listing, JobList& 
     add(std::move(work), list);
     Job& job = list.jobs.back();
     const auto note_size = [&](const fs::path& file) {
-      job.listed[options.folder / file] = listing.found.sizes.at(file);
+      job.listed[options.folder / file] = tree.found.sizes.at(file);
     };
     note_size(asset.path);
     for (const fs::path& file : asset.files) note_size(file);
   }
-  for (const WalkProblem& problem : listing.found.problems) list.skipped.push_back({problem.message, true});
+  for (const WalkProblem& problem : tree.found.problems) list.skipped.push_back({problem.message, true});
   list.is_of_folder = list.has_several = true;
 }
 
@@ -226,17 +226,17 @@ bool is_asset(const fs::path& path) {
   return is_asset_name(path) && !fs::is_directory(path, ignored);
 }
 
-JobList asset_jobs(const ConvertOptions& options, const Listing* listing) {
+JobList asset_jobs(const ConvertOptions& options, const TreeManifest* listed) {
   JobList list;
   list.kind = ListedKind::kAssets;
-  if (listing != nullptr)
-    add_listed(options, *listing, list);
+  if (listed != nullptr)
+    add_listed(options, *listed, list);
   else
     options.assets ? add_tree(options, list) : add_named(options, list);
   list.has_several |= list.jobs.size() > 1;
   NamePlan names(list);
   names.take_results();
-  if (listing == nullptr && list.jobs.size() > 1) {
+  if (listed == nullptr && list.jobs.size() > 1) {
     names.take_files();
     names.set_prefixes();
   }
@@ -246,7 +246,7 @@ JobList asset_jobs(const ConvertOptions& options, const Listing* listing) {
   return list;
 }
 
-Listing listing_of_assets(const fs::path& folder, const std::string& format) {
+TreeManifest tree_of_assets(const fs::path& folder, const std::string& format) {
   ConvertOptions options;
   options.folder = folder;
   options.format = format;
@@ -257,22 +257,22 @@ Listing listing_of_assets(const fs::path& folder, const std::string& format) {
   names.take_results();
   names.take_files();
   names.set_prefixes();
-  Listing listing;
-  listing.kind = ListedKind::kAssets;
+  TreeManifest tree;
+  tree.head.kind = ListedKind::kAssets;
   for (Job& job : list.jobs) {
     if (!job.refusal.empty()) {
-      listing.found.problems.push_back({{}, job.refusal});
+      tree.found.problems.push_back({{}, job.refusal});
       continue;
     }
     const AssetWork& work = asset_in(job);
-    ListedAsset& asset = listing.assets.emplace_back();
+    ListedAsset& asset = tree.assets.emplace_back();
     asset.path = work.name();
     asset.image_prefix = work.image_prefix;
     for (const fs::path& file : work.files)
       asset.files.push_back(file.lexically_relative(folder.lexically_normal()));
   }
-  for (const SkippedEntry& problem : list.skipped) listing.found.problems.push_back({{}, problem.message});
-  return listing;
+  for (const SkippedEntry& problem : list.skipped) tree.found.problems.push_back({{}, problem.message});
+  return tree;
 }
 
 }  // namespace remap

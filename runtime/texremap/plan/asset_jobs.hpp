@@ -19,10 +19,10 @@ bool is_asset(const std::filesystem::path& path);
 // Returns the jobs. If `listing` is not null, it is the content of a manifest. If an asset would write a file
 // that another asset has, its job gets a refusal. Throws kUsage if a folder has no assets, and kInput if it
 // cannot be read.
-JobList asset_jobs(const ConvertOptions& options, const Listing* listing);
+JobList asset_jobs(const ConvertOptions& options, const TreeManifest* listed);
 
 // Returns the assets of a folder as a manifest lists them. `format` is the target of OBJ files, or empty.
 // Throws like asset_list().
-Listing listing_of_assets(const std::filesystem::path& folder, const std::string& format);
+TreeManifest tree_of_assets(const std::filesystem::path& folder, const std::string& format);
 
 }  // namespace remap

@@ -43,7 +43,7 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
 
 // Returns the colors that may be read from maps. With a folder these are all colors of the source.
 std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
-                                                const WorkflowChoice& workflow) {
+                                                const ConversionChoice& workflow) {
   std::vector<Parameter> colors = colors_among(workflow.sources());
   std::erase_if(colors, [&](Parameter color) {
     const MapSource* source = options.map_of(color);
@@ -55,7 +55,7 @@ std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
 }
 
 // Throws for the first source parameter without an option.
-void require_parameters(const ConvertOptions& options, const WorkflowChoice& workflow) {
+void require_parameters(const ConvertOptions& options, const ConversionChoice& workflow) {
   for (const Parameter parameter : workflow.sources()) {
     if (options.map_of(parameter) != nullptr || workflow.constants.contains(parameter)) continue;
     static const std::map<Parameter, std::string> kRemedies = {
@@ -70,7 +70,7 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
 }
 
 // Refuses maps and numbers that the conversion does not read.
-void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
+void require_read(const ConvertOptions& options, const ConversionChoice& workflow) {
   const auto refuse_map = [](const std::string& option, bool is_result) {
     throw Error(ErrorKind::kUsage, option + ": has no effect, because the source material has no " +
                                        option.substr(2, option.find("-factor") - 2) +
@@ -97,7 +97,7 @@ void require_read(const ConvertOptions& options, const WorkflowChoice& workflow)
 }
 
 // Refuses options of folders if there is only one set, and maps that cannot be used with a folder.
-void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
+void require_one_way(const ConvertOptions& options, const ConversionChoice& workflow) {
   const bool is_tree = !options.folder.empty();
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
@@ -132,7 +132,7 @@ ConstantValues default_of(const SurfaceTranslation& translation, Parameter param
 
 // Returns the encoding of the roughness maps. `--roughness` never means glossiness.
 std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
-                                                  const WorkflowChoice& workflow) {
+                                                  const ConversionChoice& workflow) {
   if (options.reads_glossiness()) return RoughnessEncoding::kGlossiness;
   if (options.roughness_encoding) return options.roughness_encoding;
   if (!workflow.is_material()) return std::nullopt;
@@ -142,7 +142,7 @@ std::optional<RoughnessEncoding> given_convention(const ConvertOptions& options,
 
 }  // namespace
 
-TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow) {
+TextureSetRequest set_request(const ConvertOptions& options, const ConversionChoice& workflow) {
   require_one_way(options, workflow);
   const std::map<Parameter, Transfer> transfers = color_spaces_read(options, workflow);
   TextureSetRequest request;
@@ -179,7 +179,7 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
   return request;
 }
 
-std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow) {
+std::vector<CopiedFile> copied_files(const ConvertOptions& options, const ConversionChoice& workflow) {
   std::vector<CopiedFile> files;
   if (workflow.is_material()) return files;
   for (const Parameter parameter : {Parameter::kDiffuse, Parameter::kBaseColor}) {
@@ -205,7 +205,8 @@ CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::
   const auto wanted = engine != nullptr ? engine->normals : normals_of(options.to);
   const auto of_source = normals_of(options.from);
   const std::string from = "--from " + std::string(options.from.word());
-  const std::optional<StatedGreen> stated = stated_green(source.filename().string());
+  const std::string name = source.filename().string();
+  const std::optional<NormalGreen> stated = stated_green(name);
   CopiedFile normals{source, "", ""};
   if (!wanted) {
     if (engine != nullptr) normals.reason = target + " reads both directions";
@@ -217,14 +218,14 @@ CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::
                      " (add GL or DX to the name, such as wood_NormalGL.png)";
     return normals;
   }
-  const NormalGreen green = stated ? stated->green : *of_source;
+  const NormalGreen green = stated ? *stated : *of_source;
   if (green == *wanted) {
     if (of_source && *of_source != green)
       normals.reason = "its name means " + text(green) + ", which " + target + " reads (maps of " + from +
                        " are " + text(*of_source) + ")";
     return normals;
   }
-  std::filesystem::path turned = stated ? stated->turned_name : source.filename().string();
+  std::filesystem::path turned = turned_name(name);
   std::error_code ignored;
   if (stated && std::filesystem::exists(source.parent_path() / turned, ignored)) return normals;
   normals.turned_name = turned.replace_extension(written_extension(turned)).string();
@@ -253,9 +254,9 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
 
 }  // namespace
 
-RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const TextureSet& set, RoughnessEncoding usual) {
+RoughnessEncoding written_width(const TargetChoice& choice, const TextureSet& set, RoughnessEncoding usual) {
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness, kRoughness = RoughnessEncoding::kRoughness;
+  const std::optional<RoughnessEncoding> asked = choice.treatment.target_convention;
   const RoughnessEncoding wanted = asked.value_or(usual);
   if (const auto held = choice.layout.width()) {
     if (*held == kGlossiness) return kGlossiness;
@@ -294,7 +295,8 @@ std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options) {
   return shared;
 }
 
-std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request) {
+std::optional<TranslationEffect> effect_of(const ConversionChoice& workflow,
+                                           const TextureSetRequest& request) {
   if (!workflow.translation) return std::nullopt;
   GivenInputs given;
   for (const auto& [parameter, asked] : request.parameters) {
@@ -316,8 +318,14 @@ void apply(const TranslationEffect& effect, TargetChoice& choice) {
   choice.wide = effect.wide;
 }
 
-TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
+TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow) {
   TargetChoice choice;
+  choice.treatment = {options.output_encoding,
+                      static_cast<float>(options.output_roughness_factor.value_or(1.0)),
+                      options.bad_texels,
+                      options.dither,
+                      options.json,
+                      options.json || !options.quiet};
   choice.folder = options.output;
   const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
   choice.layout = options.layout ? *options.layout
@@ -349,17 +357,6 @@ void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
   if (is_given && width != RoughnessEncoding::kExponent)
     throw usage_error("--exponent-of-white: applies only to exponents, but the results contain " +
                       std::string(encoding_name(width)) + " (remove this option)");
-}
-
-PassOptions pass_options(const ConvertOptions& options) {
-  PassOptions pass;
-  pass.target_convention = options.output_encoding;
-  pass.target_roughness_factor = static_cast<float>(options.output_roughness_factor.value_or(1.0));
-  pass.bad_texels = options.bad_texels;
-  pass.dither = options.dither;
-  pass.value_statistics = options.json;
-  pass.metallic_statistics = options.json || !options.quiet;
-  return pass;
 }
 
 }  // namespace remap

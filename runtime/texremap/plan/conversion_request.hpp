@@ -14,12 +14,12 @@
 namespace remap {
 
 // Each function throws kUsage, with the option, for an invalid value.
-TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
+TextureSetRequest set_request(const ConvertOptions& options, const ConversionChoice& workflow);
 // Returns an option that reads one channel of the map, such as `--roughness '*_rough.jpg:G'`. Returns an
 // empty text if `file` is empty.
 std::string one_channel(const std::string& option, const std::filesystem::path& file);
 // Returns the files to copy if the options name one set.
-std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
+std::vector<CopiedFile> copied_files(const ConvertOptions& options, const ConversionChoice& workflow);
 // Returns the copy of a normal map in a folder. The direction of green comes from the name of the map,
 // otherwise from the source model. If the target has the other direction, the copy has inverted green, unless
 // the folder already has a map with that direction.
@@ -30,19 +30,17 @@ std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
                                                 const std::filesystem::path& given);
 // Returns the shared maps of all options.
 std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
-TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
+TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow);
 // Returns what a translation makes of a set, or nothing for other conversions.
-std::optional<TranslationEffect> effect_of(const WorkflowChoice& workflow, const TextureSetRequest& request);
+std::optional<TranslationEffect> effect_of(const ConversionChoice& workflow,
+                                           const TextureSetRequest& request);
 // Sets the parameters that a set's translation writes, and those that it keeps.
 void apply(const TranslationEffect& effect, TargetChoice& choice);
 // Returns the encoding of a set's roughness results: --output-encoding, or `usual` without this option. Names
 // stay true. A glossiness map that keeps its name stays glossiness, orm and arm hold roughness, and specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
-RoughnessEncoding written_width(std::optional<RoughnessEncoding> asked, const TargetChoice& choice,
-                                const TextureSet& set, RoughnessEncoding usual);
+RoughnessEncoding written_width(const TargetChoice& choice, const TextureSet& set, RoughnessEncoding usual);
 // Refuses --exponent-of-white for results without an exponent.
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
-
-PassOptions pass_options(const ConvertOptions& options);
 
 }  // namespace remap

@@ -27,16 +27,16 @@
 namespace remap {
 namespace {
 
-std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
-                                            const FittedConverter& fit, InstructionSet set) {
+std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const ConversionChoice& choice,
+                                            const FittedConverter& fit) {
   const auto* data = std::get_if<ConverterData>(&fit);
   if (data == nullptr)
     throw Error(ErrorKind::kInput, options.fit +
                                        ": converts between workflows, which --from and --to "
                                        "select without a fit (remove --fit)");
-  require_models_of_fit(options.fit, {workflow.source_brdf, workflow.target_brdf},
-                        {data->info.source.model, data->info.target.model});
-  return make_converter(*data, set);
+  require_model_of_fit(options.fit, "--from", choice.source_brdf, data->info.source.model);
+  require_model_of_fit(options.fit, "--to", choice.target_brdf, data->info.target.model);
+  return make_converter(*data, options.instructions);
 }
 
 // A GivenFit is the fit of --fit, or empty without that option.
@@ -44,17 +44,19 @@ using GivenFit = std::optional<FittedConverter>;
 
 const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
 
-BuiltConversion conversion_of(const ConvertOptions& options, const GivenFit& fit,
-                              const WorkflowChoice& workflow) {
+BuiltConversion conversion_of(const ConvertOptions& options, const GivenFit& fit, ConversionChoice choice) {
   if (const WarpMapFit* warp = warp_in(fit)) {
-    BuiltConversion conversion;
-    conversion.material = make_warp_converter(*warp, *workflow.source, options.instructions);
+    BuiltConversion conversion{std::move(choice)};
+    conversion.material = make_warp_converter(*warp, *conversion.choice.source, options.instructions);
     return conversion;
   }
-  if (fit) return build_conversion(workflow, converter_of_fit(options, workflow, *fit, options.instructions));
+  if (fit) {
+    std::unique_ptr<Converter> converter = converter_of_fit(options, choice, *fit);
+    return build_conversion(std::move(choice), std::move(converter));
+  }
   if (options.from.empty() || options.to.empty())
     throw usage_error(std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
-  return build_conversion(workflow, options.via, options.converters.graph(options.instructions),
+  return build_conversion(std::move(choice), options.via, options.converters.graph(options.instructions),
                           options.instructions);
 }
 
@@ -93,8 +95,7 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   if (options.manifest.empty()) return std::nullopt;
   if (!options.names.empty())
     throw usage_error("--names cannot be used with --manifest (give --names to texremap index instead)");
-  const Part all;
-  TreeManifest manifest = read_manifest(options.manifest, options.part ? options.part->part : all);
+  TreeManifest manifest = read_manifest(options.manifest, options.part.value_or(Part()));
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
@@ -157,7 +158,7 @@ void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets)
 void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
   std::optional<Discovery> found;
   choose_files(options);
-  if (manifest) found = std::move(manifest->listing.found);
+  if (manifest) found = std::move(manifest->found);
   std::string inferred;
   if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
     if (options.part)
@@ -169,34 +170,29 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   }
   const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
   const WarpMapFit* warp = warp_in(fit);
-  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
+  ConversionChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);
   TargetChoice targets = target_choice(options, workflow);
   TextureSetRequest request = set_request(options, workflow);
-  BuiltConversion built = conversion_of(options, fit, workflow);
-  SetPlan& sets = plan.work.emplace<SetPlan>(SetPlan{options.converters,
-                                                     {std::move(built), std::move(workflow)},
-                                                     std::move(request),
-                                                     std::move(targets),
-                                                     pass_options(options),
-                                                     options.output_roughness_factor.has_value()});
-  const ChosenConverter& chosen = sets.chosen;
+  SetPlan& sets = plan.work.emplace<SetPlan>(
+      SetPlan{options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
+              std::move(targets), options.dielectric_f0, options.output_roughness_factor.has_value()});
+  const BuiltConversion& chosen = sets.chosen;
   const auto name = [](const ModelName& typed, const ModelSide& side) {
     return typed.alias != nullptr ? std::string(typed.word()) : side.model;
   };
   sets.source_name = name(options.from, chosen.info().source);
   sets.target_name = name(options.to, chosen.info().target);
   require_fractions(sets.request, chosen.info());
-  for (const std::string& text : chosen.workflow.assumptions) plan.messages.push_back("warning: " + text);
-  for (const std::string& text : chosen.workflow.notes) plan.messages.push_back("note: " + text);
-  if (chosen.workflow.is_closest)
-    plan.messages.push_back("note: " + closest_text(chosen.workflow.target_brdf));
+  for (const std::string& text : chosen.choice.assumptions) plan.messages.push_back("warning: " + text);
+  for (const std::string& text : chosen.choice.notes) plan.messages.push_back("note: " + text);
+  if (chosen.choice.is_closest) plan.messages.push_back("note: " + closest_text(chosen.choice.target_brdf));
   if (options.folder.empty() && are_constants(sets.request))
     return refuse(options, kNeedsFiles,
                   ": has no effect, because all maps are numbers (give a file, or remove this option)");
   find_sets_of(options, found);
   if (options.output.empty()) throw usage_error("--output is required");
-  plan.list = set_jobs(options, chosen.workflow, sets.request, std::move(found));
+  plan.list = set_jobs(options, chosen.choice, sets.request, std::move(found));
   if (const std::string text = encoding_warning(options, plan.list, chosen.info().source); !text.empty())
     plan.messages.push_back(text);
   for (const std::string& text : plan.list.notes) plan.messages.push_back("note: " + text);
@@ -281,7 +277,7 @@ AssetOptions asset_options(const ConvertOptions& options) {
 void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest,
                  ConvertPlan& plan) {
   require_asset_options(options);
-  plan.list = asset_jobs(options, manifest ? &manifest->listing : nullptr);
+  plan.list = asset_jobs(options, manifest ? &*manifest : nullptr);
   require_gltf(options, plan.list);
   plan.work = asset_options(options);
   plan.conversion =

@@ -11,8 +11,8 @@
 
 #include "assets/document/asset.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/chosen_converter.hpp"
 #include "texremap/plan/conversion_note.hpp"
+#include "texremap/plan/converter_text.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
 #include "texture/target_plan.hpp"
@@ -23,10 +23,10 @@ namespace remap {
 // A SetPlan is the conversion of texture sets, or of numbers.
 struct SetPlan {
   UsedConverters converters;  // `chosen` is made from them
-  ChosenConverter chosen;
-  TextureSetRequest request;      // what the options request, for one set or for all sets of a folder
-  TargetChoice targets;           // members that differ between sets are not set yet
-  PassOptions pass;               // target_convention comes from --output-encoding
+  BuiltConversion chosen;
+  TextureSetRequest request;  // what the options request, for one set or for all sets of a folder
+  TargetChoice targets;       // members that differ between sets are not set yet
+  F0Choice dielectric_f0;
   bool scales_exponents = false;  // true if the exponent that a stored 1 means is known for the results
   std::string source_name = {}, target_name = {};  // aliases that the user typed, otherwise the models
 };
@@ -42,7 +42,7 @@ struct ConvertPlan {
   std::string command;           // the command line, as text
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // memory for images, in all threads
-  std::optional<GivenPart> part;   // part of the manifest
+  std::optional<Part> part;        // part of the manifest
   ManifestHead manifest;
 
   std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions

@@ -29,7 +29,7 @@ std::string difference_text(const ConverterPath& path) {
     return std::string("both models have the same lobe, so that ") +
            (is_equal ? "numbers are copied" : "only the encoding of roughness changes");
   }
-  const std::optional<PathDifference> difference = picture_difference(path);
+  const std::optional<PictureDifference> difference = picture_difference(path);
   if (!difference) return "nobody has compared pictures";
   return std::string("rendered pictures differ by ") + (difference->is_estimate ? "about " : "") +
          percent_text(difference->converted) +
@@ -44,7 +44,7 @@ std::string models_text(const ConverterPath& path) {
 
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   if (path.steps.empty()) return "";
-  const std::optional<PathDifference> difference = picture_difference(path);
+  const std::optional<PictureDifference> difference = picture_difference(path);
   const bool is_told = is_copy(path) || (difference && difference->converted >= 100.0 * kVisible);
   if (!is_told && !closer) return "";
   std::string text = path.steps.front()->info().source.model + " to " + target_model(path) + ": ";
@@ -59,6 +59,23 @@ std::string closer_text(const ConverterPath& closer) {
 
 std::string closest_text(const std::string& model) {
   return model + " is the closest model of " + renderer_of(model);
+}
+
+std::string conventions_text(const WorkflowEnd& end) {
+  std::string text = "diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+  if (const auto* metallic = std::get_if<MetallicWorkflow>(&end))
+    text += ", dielectric F0 " + number_text(metallic->dielectric_f0);
+  return text;
+}
+
+std::string converter_ids(const BuiltConversion& chosen) {
+  std::string ids;
+  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
+  if (chosen.choice.translation) return chosen.info().id;
+  if (!chosen.choice.is_material()) return ids;
+  return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" + conventions_text(*chosen.choice.source) +
+         "; " + conventions_text(*chosen.choice.target) +
+         (chosen.choice.finds_metallic() ? "; projection)" : ")");
 }
 
 Json path_json(const ConverterPath& path) {

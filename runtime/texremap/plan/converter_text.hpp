@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/json.hpp"
-#include "remap/path.hpp"
+#include "remap/conversion.hpp"
 
 namespace remap {
 
@@ -41,6 +41,12 @@ std::string closer_text(const ConverterPath& closer);
 
 // Returns `cycles-5/beckmann is the closest model of cycles-5`, which explains the choice of `--to cycles-5`.
 std::string closest_text(const std::string& model);
+
+// Returns a text such as `diffuse plain, dielectric F0 0.04`.
+std::string conventions_text(const WorkflowEnd& end);
+
+// Returns the text that results store as `remap:converter`: the ids of steps, and a workflow's formula.
+std::string converter_ids(const BuiltConversion& chosen);
 
 // Returns the ids of the steps.
 Json path_json(const ConverterPath& path);

@@ -69,7 +69,7 @@ ListedEntry<FoundSet> listed(const fs::path& root, const FoundSet& set) {
   for (const FoundMap& map : set.maps) {
     require_listable(map.path);
     if (map.tiles.empty()) all.add_file(root, map.path, is_read(map));
-    for (const Tile& tile : map.tiles) all.add_file(root, tile.path, is_read(map));
+    for (const auto& [number, file] : map.tiles) all.add_file(root, file, is_read(map));
   }
   return all;
 }
@@ -95,7 +95,7 @@ std::string line_of(const ListedEntry<FoundSet>& listed) {
       roles[std::string(name_of(kChannels, entry.channels))] = role_name(entry.role);
     Json json = {{"file", map.path.filename().string()}, {"habit", map.habit}, {"roles", roles}};
     if (map.tiles.empty()) json["bytes"] = *size++;
-    for (const Tile& tile : map.tiles) json["tiles"].push_back(Json::list({tile.number, *size++}));
+    for (const auto& [number, file] : map.tiles) json["tiles"].push_back(Json::list({number, *size++}));
     maps.push_back(json);
   }
   const Json json = {{"cost", listed.cost}, {"id", place_of(set).string()}, {"folder", set.folder.string()},
@@ -152,9 +152,9 @@ class ManifestReader {
   [[noreturn]] void refuse(const std::string& what) const { throw input_error(path_.string() + ": " + what); }
   ManifestHead read_head();
   void read_lines(const Part& part, TreeManifest& manifest, ContentHash& hash);
-  void add_set(const Field& field, Listing& listing) const;
-  void add_asset(const Field& field, Listing& listing) const;
-  void add_rest(const Field& field, Listing& listing) const;
+  void add_set(const Field& field, TreeManifest& tree) const;
+  void add_asset(const Field& field, TreeManifest& tree) const;
+  void add_rest(const Field& field, TreeManifest& tree) const;
   std::uint64_t cost_in(std::string_view line) const;
   // `checked` is safe_relative() or safe_name().
   fs::path safe(const Field& field, fs::path (*checked)(const std::string&, const std::string&)) const {
@@ -203,26 +203,26 @@ std::uint64_t ManifestReader::cost_in(std::string_view line) const {
   return cost;
 }
 
-void ManifestReader::add_asset(const Field& field, Listing& listing) const {
+void ManifestReader::add_asset(const Field& field, TreeManifest& tree) const {
   ListedAsset asset;
   asset.path = safe(field["asset"], safe_relative);
   asset.image_prefix = safe(field["prefix"], safe_name).string();
   field["files"].list(1, [&](const Field& file) {
     const fs::path path = safe(file.at(0, 2), safe_relative);
-    listing.found.sizes[path] = static_cast<std::uintmax_t>(file.at(1, 2).count());
+    tree.found.sizes[path] = static_cast<std::uintmax_t>(file.at(1, 2).count());
     if (path != asset.path) asset.files.push_back(path);
     return true;
   });
-  if (!listing.found.sizes.contains(asset.path)) refuse(kChanged);
-  listing.assets.push_back(std::move(asset));
+  if (!tree.found.sizes.contains(asset.path)) refuse(kChanged);
+  tree.assets.push_back(std::move(asset));
 }
 
-void ManifestReader::add_set(const Field& field, Listing& listing) const {
+void ManifestReader::add_set(const Field& field, TreeManifest& tree) const {
   FoundSet set;
   set.name = safe(field["name"], safe_name).string();
   set.folder = safe(field["folder"], safe_relative);
   const auto note_size = [&](const fs::path& file, const Field& bytes) {
-    listing.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
+    tree.found.sizes[file] = static_cast<std::uintmax_t>(bytes.count());
   };
   field["maps"].list(1, [&](const Field& entry) {
     FoundMap& map = set.maps.emplace_back();
@@ -244,27 +244,27 @@ void ManifestReader::add_set(const Field& field, Listing& listing) const {
     entry["tiles"].list(1, [&](const Field& tile) {
       const std::int64_t number = tile.at(0, 2).count();
       if (number > kMostTile) refuse(kChanged);
-      map.tiles.push_back(
-          {static_cast<int>(number), set.folder / tile_name(*map.pattern, static_cast<int>(number))});
-      note_size(map.tiles.back().path, tile.at(1, 2));
+      const fs::path file = set.folder / tile_name(*map.pattern, static_cast<int>(number));
+      map.tiles[static_cast<int>(number)] = file;
+      note_size(file, tile.at(1, 2));
       return true;
     });
     return true;
   });
   judge(set);
-  listing.found.sets.push_back(std::move(set));
+  tree.found.sets.push_back(std::move(set));
 }
 
-void ManifestReader::add_rest(const Field& field, Listing& listing) const {
+void ManifestReader::add_rest(const Field& field, TreeManifest& tree) const {
   if (field.contains("problem"))
-    listing.found.problems.push_back({{}, field["problem"].any_text()});
+    tree.found.problems.push_back({{}, field["problem"].any_text()});
   else
-    listing.found.unrecognised.push_back(safe(field["unrecognised"], safe_relative));
+    tree.found.unrecognised.push_back(safe(field["unrecognised"], safe_relative));
 }
 
 TreeManifest ManifestReader::read(const Part& part) {
-  TreeManifest manifest{read_head(), {}, {}};
-  manifest.listing.kind = manifest.head.kind;
+  TreeManifest manifest;
+  manifest.head = read_head();
   ContentHash hash = hash_of_head(manifest.head);
   try {
     read_lines(part, manifest, hash);
@@ -281,7 +281,7 @@ void ManifestReader::read_lines(const Part& part, TreeManifest& manifest, Conten
   const auto add = [&](std::string_view line, auto adder) {
     const std::string context = path_.string();
     const Json json = parse_json(line, context);
-    (this->*adder)(Field(json, context), manifest.listing);
+    (this->*adder)(Field(json, context), manifest);
   };
   const auto add_entry =
       manifest.head.kind == ListedKind::kSets ? &ManifestReader::add_set : &ManifestReader::add_asset;
@@ -325,10 +325,10 @@ std::vector<ListedEntry<Entry>> listed_all(const fs::path& root, const std::vect
 }  // namespace
 
 ManifestHead write_manifest(const fs::path& file, const fs::path& root, const std::string& names,
-                            Listing listing) {
-  Discovery& found = listing.found;
+                            TreeManifest tree) {
+  Discovery& found = tree.found;
   ManifestHead head;
-  head.kind = listing.kind;
+  head.kind = tree.head.kind;
   head.version = kVersion;
   head.root = fs::absolute(root).lexically_normal();
   head.names = names;
@@ -336,7 +336,7 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
     throw input_error(display_path(head.root) +
                       ": the name is not UTF-8, so a manifest cannot list it (rename it)");
   const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
-  const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, listing.assets, head, found.problems);
+  const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, tree.assets, head, found.problems);
   // The hash comes before the lines. So the lines are made twice, because a manifest may be too large to
   // keep.
   const auto make_lines = [&](const auto& take) {

@@ -56,19 +56,14 @@ struct ListedAsset {
   std::vector<std::filesystem::path> files;  // existing files that the asset names, relative to the root
 };
 
-// A Listing holds the entries of a manifest: the texture sets of a tree, or its assets. `found` also has the
-// files that cannot be read.
-struct Listing {
-  ListedKind kind = ListedKind::kSets;
-  Discovery found;
-  std::vector<ListedAsset> assets;
-};
-
+// A TreeManifest holds the entries of a manifest, or of one part of it: the texture sets of a tree, or its
+// assets.
 struct TreeManifest {
   ManifestHead head;
-  // Holds the entries of the requested part, with the sizes of their files. Problems, and images outside of
-  // sets, belong to part 1.
-  Listing listing;
+  // Holds the texture sets, the sizes of all files, and the files that cannot be read. Files that cannot be
+  // read, and images outside of sets, belong to part 1.
+  Discovery found;
+  std::vector<ListedAsset> assets;
   std::vector<std::uint64_t> costs;  // costs of the entries of the part
 };
 
@@ -78,9 +73,9 @@ std::size_t part_of_entry(std::uint64_t cost_before, std::uint64_t cost, const M
                           std::size_t count);
 
 // Writes a manifest. An entry whose name JSON cannot hold (not UTF-8), or whose file cannot be examined,
-// becomes a problem. Throws kOutput.
+// becomes a problem. Of the head of `tree`, only the kind is used. Throws kOutput.
 ManifestHead write_manifest(const std::filesystem::path& file, const std::filesystem::path& root,
-                            const std::string& names, Listing listing);
+                            const std::string& names, TreeManifest tree);
 
 // Reads a part of a manifest. Throws kInput, with what to do, if the file is not a manifest, is incomplete,
 // has changed since it was written, or comes from another version of the program.

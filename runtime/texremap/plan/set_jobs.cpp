@@ -23,14 +23,13 @@ namespace {
 // Returns the file of `map` for a tile, or nothing if it is missing. A map without tiles serves every tile.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;
-  for (const Tile& candidate : map.tiles)
-    if (candidate.number == tile) return candidate.path;
-  return std::nullopt;
+  const auto found = map.tiles.find(tile);
+  return found == map.tiles.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::vector<fs::path> files_of(const FoundMap& map) {
   std::vector<fs::path> files;
-  for (const Tile& tile : map.tiles) files.push_back(tile.path);
+  for (const auto& [number, file] : map.tiles) files.push_back(file);
   if (files.empty()) files.push_back(map.path);
   return files;
 }
@@ -40,7 +39,7 @@ std::vector<int> tiles_of(const FoundSet& set) {
   const auto add = [&](bool all) {
     for (const FoundMap& map : set.maps)
       if (map.is_converted || all)
-        for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+        for (const auto& [number, file] : map.tiles) numbers.insert(number);
   };
   add(false);
   if (numbers.empty()) add(true);
@@ -81,7 +80,7 @@ FoundSet of_diffuse_alone(FoundSet set) {
 // Turns a folder of sets into jobs.
 class SetJobs {
  public:
-  SetJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& defaults,
+  SetJobs(const ConvertOptions& options, const ConversionChoice& workflow, const TextureSetRequest& defaults,
           Discovery found)
       : options_(options),
         workflow_(workflow),
@@ -127,7 +126,7 @@ class SetJobs {
   std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
 
   const ConvertOptions& options_;
-  const WorkflowChoice& workflow_;
+  const ConversionChoice& workflow_;
   TargetChoice choice_;
   const TextureSetRequest& defaults_;  // values for missing maps, and factors for all sets
   fs::path root_;
@@ -140,6 +139,9 @@ class SetJobs {
 
 JobList SetJobs::list() {
   jobs_.is_of_folder = jobs_.has_several = true;
+  if (is_in_place_ && !choice_.layout.keeps_names)
+    jobs_.notes.push_back("results are written beside the maps of " + display_path(root_) +
+                          ", so that a later run reads both (choose another folder for --output)");
   leave_out_shared();
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   jobs_.asset_count = found_.others.size();
@@ -508,10 +510,10 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
   if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
   std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
   for (std::size_t i = 0; i < tiled.size(); ++i) {
-    const std::vector<Tile> own = existing_tiles(tiled[i].file);
+    const Tiles own = existing_tiles(tiled[i].file);
     if (own.empty())
       throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
-    for (const Tile& tile : own) tiles[tile.number].insert(i);
+    for (const auto& [number, file] : own) tiles[number].insert(i);
   }
   for (const auto& [number, present] : tiles) {
     SetWork set = whole_set;
@@ -550,7 +552,7 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options) {
   return found;
 }
 
-JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+JobList set_jobs(const ConvertOptions& options, const ConversionChoice& workflow,
                  const TextureSetRequest& request, std::optional<Discovery> sets) {
   if (sets) return SetJobs(options, workflow, request, *std::move(sets)).list();
   SetWork set{request, options.output, options.diagnose, {}, copied_files(options, workflow), {}, {}};

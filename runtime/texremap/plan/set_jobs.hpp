@@ -18,7 +18,7 @@ std::optional<Discovery> discovered_sets(const ConvertOptions& options);
 // `request` holds what the options give for one set, or for all sets of a folder. If two sets would write the
 // same file, the second is skipped. Throws kUsage if the folder has no sets, and kInput if the folder or a
 // naming file cannot be read.
-JobList set_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+JobList set_jobs(const ConvertOptions& options, const ConversionChoice& workflow,
                  const TextureSetRequest& request, std::optional<Discovery> sets);
 
 }  // namespace remap

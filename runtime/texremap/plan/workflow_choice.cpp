@@ -17,7 +17,7 @@ ConversionWords option_words() {
           "texremap list"};
 }
 
-void require_estimable(const WorkflowChoice& choice) {
+void require_estimable(const ConversionChoice& choice) {
   if (kind_of(*choice.source) == WorkflowKind::kSpecular && choice.is_to_metallic()) return;
   throw Error(ErrorKind::kUsage,
               "--dielectric-f0: estimate requires maps of the specular workflow and a metallic target "
@@ -25,7 +25,7 @@ void require_estimable(const WorkflowChoice& choice) {
 }
 
 // Refuses options that require a workflow, or a target with metallic.
-void require_workflow(const ConvertOptions& options, const WorkflowChoice& choice) {
+void require_workflow(const ConvertOptions& options, const ConversionChoice& choice) {
   if (choice.is_material())
     refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
   else
@@ -49,7 +49,7 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
 
 }  // namespace
 
-WorkflowChoice workflow_choice(const ConvertOptions& options) {
+ConversionChoice workflow_choice(const ConvertOptions& options) {
   const auto* const f0 = std::get_if<double>(&options.dielectric_f0);
   ConversionRequest request;
   request.source = options.from;
@@ -63,10 +63,8 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   request.translates_surfaces = true;
   request.words = option_words();
   if (f0 != nullptr) request.dielectric_f0 = *f0;
-  WorkflowChoice choice{choose_conversion(request, options.converters.graph()), {}};
-  choice.f0_given = f0 != nullptr && choice.is_material();
-  choice.estimates_f0 = options.dielectric_f0 == F0Choice(F0Source::kMaps) && choice.is_material();
-  if (choice.estimates_f0) require_estimable(choice);
+  ConversionChoice choice = choose_conversion(request, options.converters.graph());
+  if (choice.is_material() && options.dielectric_f0 == F0Choice(F0Source::kMaps)) require_estimable(choice);
   require_workflow(options, choice);
   return choice;
 }
@@ -78,7 +76,7 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 }
 
 // Handles a warp whose source is only a diffuse map. It has neither specular nor roughness maps.
-void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
+void choose_diffuse_alone(const ConvertOptions& options, ConversionChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
@@ -86,28 +84,25 @@ void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice)
 
 }  // namespace
 
-void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own) {
-  const auto require = [&](const std::string& role, const std::string& option, const std::string& wanted,
-                           const std::string& found) {
-    if (!wanted.empty() && wanted != found)
-      throw Error(ErrorKind::kUsage, file + ": " + role + " model is " + found + ", but " + option +
-                                         " asks for " + wanted + " (remove " + option + ")");
-  };
-  require("source", "--from", asked.source, own.source);
-  require("target", "--to", asked.target, own.target);
+void require_model_of_fit(const std::string& file, const std::string& option, const std::string& asked,
+                          const std::string& own) {
+  if (!asked.empty() && asked != own)
+    throw Error(ErrorKind::kUsage, file + ": " + (option == "--from" ? "source" : "target") + " model is " +
+                                       own + ", but " + option + " asks for " + asked + " (remove " + option +
+                                       ")");
 }
 
-WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
+ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
   refuse_with_warp(options, kNotWithWarp, options.fit);
-  require_models_of_fit(options.fit, {options.from.name, options.to.name},
-                        {fit.source_model, fit.template_model});
+  require_model_of_fit(options.fit, "--from", options.from.name, fit.source_model);
+  require_model_of_fit(options.fit, "--to", options.to.name, fit.template_model);
   // The warp was made from maps of roughness.
   const RoughnessEncoding width = options.reads_glossiness()
                                       ? RoughnessEncoding::kGlossiness
                                       : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
   // `remapc warp` reads metallic sets in the same way.
-  WorkflowChoice choice{choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width),
-                        {}};
+  ConversionChoice choice =
+      choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width);
   if (is_of_diffuse_alone(fit)) choose_diffuse_alone(options, choice);
   require_workflow(options, choice);
   return choice;

@@ -49,21 +49,21 @@ Json end_json(const WorkflowEnd& end) {
   return json;
 }
 
-Json converter_json(const ChosenConverter& chosen) {
+Json converter_json(const BuiltConversion& chosen) {
   const ConverterInfo& info = chosen.info();
   Json json = {{"converter", info.id},
                {"path", path_json(chosen.path)},
-               {"expected_error", chosen.workflow.translation ? Json() : Json(chosen.path.expected_error)},
+               {"expected_error", chosen.choice.translation ? Json() : Json(chosen.path.expected_error)},
                {"source", info.source.model},
                {"target", info.target.model},
-               {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
-  json["notes"] = chosen.workflow.notes;
-  if (chosen.workflow.translation) return json;
+               {"closest_of", chosen.choice.is_closest ? Json(chosen.choice.renderer) : Json()}};
+  json["notes"] = chosen.choice.notes;
+  if (chosen.choice.translation) return json;
   json.update(pictures_json(chosen.path, chosen.closer));
-  if (!chosen.workflow.is_material()) return json;
-  json["workflow"] = {{"source", end_json(*chosen.workflow.source)},
-                      {"target", end_json(*chosen.workflow.target)},
-                      {"assumptions", chosen.workflow.assumptions}};
+  if (!chosen.choice.is_material()) return json;
+  json["workflow"] = {{"source", end_json(*chosen.choice.source)},
+                      {"target", end_json(*chosen.choice.target)},
+                      {"assumptions", chosen.choice.assumptions}};
   return json;
 }
 
@@ -108,7 +108,7 @@ Json effect_json(const TranslationEffect& effect) {
 
 // Returns the members that only texture sets have.
 Json set_json(const ConvertPlan& plan, const JobReport& report) {
-  const ChosenConverter& chosen = plan.sets()->chosen;
+  const BuiltConversion& chosen = plan.sets()->chosen;
   const MapStatistics& counts = report.statistics;
   Json json = {{"tiles", report.tiles}}, values;
   std::vector<Parameter> named = report.effect ? report.effect->written : chosen.converter().targets();
@@ -139,7 +139,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
       values[plain_name(parameter)] = {{"source", of(counts.sources, parameter)},
                                        {"target", of(counts.targets, parameter)}};
   json["values"] = values;
-  if (chosen.workflow.is_material() && !report.effect) {
+  if (chosen.choice.is_material() && !report.effect) {
     json["masked"] = counts.masked_count;
     json["above_one"] = counts.above_one_count;
     json["metallic_confidence"] = metallic_json(counts.metallic);

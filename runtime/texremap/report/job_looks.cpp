@@ -44,10 +44,10 @@ std::string bytes_of(const AssetConversion& conversion, const ByteSource& source
 constexpr const char* kGltfBrdf = "mitsuba/ggx";
 
 std::string source_brdf(const ConvertPlan& plan) {
-  return plan.sets() != nullptr ? plan.sets()->chosen.workflow.source_brdf : kGltfBrdf;
+  return plan.sets() != nullptr ? plan.sets()->chosen.choice.source_brdf : kGltfBrdf;
 }
 std::string target_brdf(const ConvertPlan& plan) {
-  return plan.sets() != nullptr ? plan.sets()->chosen.workflow.target_brdf : kGltfBrdf;
+  return plan.sets() != nullptr ? plan.sets()->chosen.choice.target_brdf : kGltfBrdf;
 }
 
 // Returns the converters of the plan, and all shipped ones, because a renderer may need others to show a
@@ -66,7 +66,7 @@ ConverterGraph shown_graph(const ConvertPlan& plan) {
   return ConverterGraph(std::move(converters), Detours::kRefused);
 }
 
-bool has_same_parameters(const WorkflowChoice& workflow) {
+bool has_same_parameters(const ConversionChoice& workflow) {
   const auto &source = workflow.source, &target = workflow.target;
   return source.has_value() == target.has_value() && (!source || kind_of(*source) == kind_of(*target));
 }
@@ -85,7 +85,7 @@ JobLooks::JobLooks(const ConvertPlan& plan, const ModelTest& before, const Model
   };
   note(source_brdf(plan), source_);
   note(target_brdf(plan), target_);
-  if (plan.sets() != nullptr && plan.sets()->chosen.workflow.translation)
+  if (plan.sets() != nullptr && plan.sets()->chosen.choice.translation)
     notes_.emplace_back("layers over the base, such as coats and sheen, are not shown");
 }
 
@@ -99,8 +99,8 @@ std::vector<MaterialLooks> JobLooks::of(const Job& job, int side, std::size_t mo
 }
 
 MaterialLooks JobLooks::of_set(const Job& job, int side) const {
-  const ChosenConverter& chosen = plan_.sets()->chosen;
-  const WorkflowChoice& workflow = chosen.workflow;
+  const BuiltConversion& chosen = plan_.sets()->chosen;
+  const ConversionChoice& workflow = chosen.choice;
   TextureSet set = open_texture_set(std::get<SetWork>(job.work).request);
   MaterialLooks looks;
   looks.name = job.name.empty() ? "maps" : display_path(std::filesystem::path(job.name).filename());

@@ -16,8 +16,8 @@ namespace remap {
 namespace {
 
 // Returns both ends of a workflow conversion, and the steps between them.
-std::string material_text(const ChosenConverter& chosen) {
-  const WorkflowChoice& workflow = chosen.workflow;
+std::string material_text(const BuiltConversion& chosen) {
+  const ConversionChoice& workflow = chosen.choice;
   if (workflow.translation) return chosen.info().source.model + " to " + chosen.info().target.model;
   const auto end_text = [](const WorkflowEnd& end) {
     return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
@@ -34,7 +34,7 @@ std::string material_text(const ChosenConverter& chosen) {
 }
 
 // Returns the domain that some texels are outside of.
-std::string outside_text(const ChosenConverter& chosen) {
+std::string outside_text(const BuiltConversion& chosen) {
   const std::string domain = domain_text(chosen.domain());
   return chosen.path.steps.size() <= 1 ? "the measured range (" + domain + ")"
                                        : "the measured range of a step (path: " + domain + ")";
@@ -63,22 +63,20 @@ std::string left_behind_text(const JobReport& report) {
   return "skipped: " + joined(names, ", ");
 }
 
-double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
-  if (chosen.workflow.estimates_f0 && estimated.is_certain) return used_f0(estimated);
-  return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
-}
-
 // Prints how much of a material metal-rough cannot express, if a picture would show it. With `verbose`, also
 // prints how reliable metallic is.
-void print_confidence(const std::string& context, const ChosenConverter& chosen, const JobReport& report,
+void print_confidence(const std::string& context, const SetPlan& sets, const JobReport& report,
                       bool verbose) {
   const MapStatistics& counts = report.statistics;
   const MetallicStatistics& metallic = counts.metallic;
-  if (const auto& f0 = report.estimated_f0;
-      f0 && (verbose || chosen.workflow.estimates_f0 || report.name.empty()))
+  const bool is_estimate = sets.dielectric_f0 == F0Choice(F0Source::kMaps);
+  if (const auto& f0 = report.estimated_f0; f0 && (verbose || is_estimate || report.name.empty())) {
+    const double of_model = std::get<MetallicWorkflow>(*sets.chosen.choice.target).dielectric_f0;
     print_message(kProgram, context + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
                                 (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
-                                number_text(f0_of(chosen, *f0)) + " is used");
+                                number_text(is_estimate && f0->is_certain ? used_f0(*f0) : of_model) +
+                                " is used");
+  }
   if (metallic.texel_count == 0) return;
   const double difference = kPictureOfResidual * metallic.rms_residual();
   const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
@@ -121,7 +119,7 @@ void print_effect(const ConvertPlan& plan, const std::string& context, const Tra
 }
 
 void print_set(const ConvertPlan& plan, const std::string& context, const JobReport& report) {
-  const ChosenConverter& chosen = plan.sets()->chosen;
+  const BuiltConversion& chosen = plan.sets()->chosen;
   if (report.effect) print_effect(plan, context, *report.effect);
   if (plan.dry_run) {
     print_message(kProgram, context + "would write " + files_text(report) + " from " +
@@ -139,7 +137,7 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
   line(counts.texel_count, " in " + fixed(report.seconds, 2) + " s" + by + ": " + files_text(report));
   if (plan.verbose && !report.left_behind.empty())
     print_message(kProgram, context + left_behind_text(report));
-  print_confidence(context, chosen, report, plan.verbose);
+  print_confidence(context, *plan.sets(), report, plan.verbose);
   const auto is_told = [&](std::size_t count) {
     return plan.verbose || !plan.list.has_several ||
            static_cast<double>(count) >= kVisible * static_cast<double>(counts.texel_count);
@@ -200,8 +198,8 @@ std::string outcome_text(const JobReport& report, bool dry_run) {
 
 }  // namespace
 
-std::string converter_text(const ChosenConverter& chosen) {
-  if (chosen.workflow.is_material()) return material_text(chosen);
+std::string converter_text(const BuiltConversion& chosen) {
+  if (chosen.choice.is_material()) return material_text(chosen);
   if (chosen.path.steps.size() == 1) return chosen.info().id;
   return models_text(chosen.path);
 }

@@ -24,7 +24,7 @@ class WarningKinds {
 };
 
 // Returns the id of a single converter, or the models of a path, and the workflows around them.
-std::string converter_text(const ChosenConverter& chosen);
+std::string converter_text(const BuiltConversion& chosen);
 
 // Prints the lines about one set or asset to standard error. A dry run also prints the table of a set to
 // standard output.

@@ -201,9 +201,9 @@ void write_part_report(const fs::path& output, const Part& part, const std::stri
   write_file(output / kPartsFolder / (name_of(part) + kPartReport), lines);
 }
 
-Json part_json(const GivenPart& part, const ManifestHead& manifest, const ConversionNote& conversion) {
-  Json json = {{"index", part.part.index},
-               {"count", part.part.count},
+Json part_json(const Part& part, const ManifestHead& manifest, const ConversionNote& conversion) {
+  Json json = {{"index", part.index},
+               {"count", part.count},
                {"manifest", manifest.hash},
                {std::string(name_of(kListedKinds, manifest.kind)), manifest.count},
                {"conversion", conversion.hash}};

@@ -15,7 +15,7 @@
 namespace remap {
 
 // Returns the first line of a report. `manifest` describes the whole manifest, not only the part.
-Json part_json(const GivenPart& part, const ManifestHead& manifest, const ConversionNote& conversion);
+Json part_json(const Part& part, const ManifestHead& manifest, const ConversionNote& conversion);
 
 // Writes the report of a finished part of the conversion to `output`. Throws kOutput.
 void write_part_report(const std::filesystem::path& output, const Part& part, const std::string& lines);

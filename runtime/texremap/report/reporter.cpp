@@ -92,9 +92,9 @@ void require_success(const Outcome& outcome) {
 }
 
 // Returns the name of a target parameter. Roughness is called by its encoding.
-std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessEncoding width) {
+std::string name_of_target(const BuiltConversion& chosen, Parameter parameter, RoughnessEncoding width) {
   if (parameter == Parameter::kRoughness) return std::string(encoding_name(width));
-  if (!chosen.workflow.is_material()) return chosen.info().target.specular;
+  if (!chosen.choice.is_material()) return chosen.info().target.specular;
   return std::string(parameter_name(parameter));
 }
 
@@ -109,7 +109,7 @@ void print_numbers(const ConvertPlan& plan, const std::vector<ConvertedNumbers>&
                    const std::vector<std::string>& lost = {}) {
   if (plan.json) {
     Json result = conversion_json(plan);
-    if (plan.sets()->chosen.workflow.translation) result["lost"] = lost;
+    if (plan.sets()->chosen.choice.translation) result["lost"] = lost;
     for (const ConvertedNumbers& value : values)
       result["values"][value.name] =
           value.channels.size() == 1 && value.is_scalar ? Json(value.channels.front()) : Json(value.channels);
@@ -171,7 +171,7 @@ void Reporter::finish(std::vector<JobReport> reports) {
     if (plan_.list.has_several) print_summary(outcome, warnings_);
   }
   write({{"summary", summary_json(outcome)}});
-  if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, plan_.part->part, lines_);
+  if (plan_.part && !plan_.dry_run) write_part_report(plan_.output, *plan_.part, lines_);
   require_success(outcome);
 }
 
@@ -194,9 +194,9 @@ void print_translated_numbers(const ConvertPlan& plan, const TranslationEffect& 
 void print_converted_numbers(const ConvertPlan& plan) {
   print_messages(plan);
   const SetPlan& sets = *plan.sets();
-  if (const auto effect = effect_of(sets.chosen.workflow, sets.request))
+  if (const auto effect = effect_of(sets.chosen.choice, sets.request))
     return print_translated_numbers(plan, *effect);
-  const ChosenConverter& chosen = sets.chosen;
+  const BuiltConversion& chosen = sets.chosen;
   const ConverterInfo& info = chosen.info();
   MapConversion maps;
   maps.width = maps.height = 1;
@@ -207,11 +207,11 @@ void print_converted_numbers(const ConvertPlan& plan) {
     source.name = parameter_option(parameter);
   }
   maps.source_convention = sets.request.convention;
-  maps.target_convention = sets.pass.target_convention;
-  maps.target_roughness_factor = sets.pass.target_roughness_factor;
-  if (!maps.target_convention && chosen.workflow.is_material())
-    maps.target_convention = width_of(*chosen.workflow.target);
-  maps.bad_texels = sets.pass.bad_texels;
+  maps.target_convention = sets.targets.treatment.target_convention;
+  maps.target_roughness_factor = sets.targets.treatment.target_roughness_factor;
+  if (!maps.target_convention && chosen.choice.is_material())
+    maps.target_convention = width_of(*chosen.choice.target);
+  maps.bad_texels = sets.targets.treatment.bad_texels;
   const RoughnessEncoding width = maps.target_convention.value_or(info.target.roughness);
   require_factor_of_exponent(sets.scales_exponents, width);
   const auto specular = maps.sources.find(Parameter::kSpecular);

@@ -11,8 +11,7 @@ namespace fs = std::filesystem;
 
 OutputFolder::OutputFolder(const ConvertPlan& plan) : plan_(plan) {
   if (plan.list.kind == ListedKind::kAssets && !plan.list.is_of_folder) return;
-  journal_.emplace(plan.output, plan.conversion,
-                   plan.part ? std::make_optional(plan.part->part) : std::nullopt);
+  journal_.emplace(plan.output, plan.conversion, plan.part);
   if (!plan.force) journal_->require_own();
 }
 

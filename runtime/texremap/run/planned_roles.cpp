@@ -35,13 +35,11 @@ std::string input_of(const TextureSet& set, const SetParameter& parameter) {
 template <typename IsOf>
 std::string outputs_of(const TargetPlan& plan, IsOf is_of) {
   std::string text;
-  const auto add = [&](const std::filesystem::path& path, const std::vector<TargetPart>& parts) {
-    const bool holds = std::ranges::any_of(
-        parts, [&](const TargetPart& part) { return std::ranges::any_of(part.channels, is_of); });
-    if (holds) text += (text.empty() ? "" : ", ") + name_of_file(path);
-  };
-  for (const PlannedMap& map : plan.maps) add(map.path, map.parts);
-  for (const PlannedCopy& copy : plan.copies) add(copy.path, copy.parts);
+  for (const auto* files : {&plan.maps, &plan.copies})
+    for (const PlannedFile& file : *files)
+      if (std::ranges::any_of(
+              file.parts, [&](const TargetPart& part) { return std::ranges::any_of(part.channels, is_of); }))
+        text += (text.empty() ? "" : ", ") + name_of_file(file.path);
   return text;
 }
 
@@ -91,7 +89,7 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
                        return place != nullptr && copied != nullptr && *copied == *place;
                      })});
   }
-  for (const PlannedCopy& copy : plan.copies)
+  for (const PlannedFile& copy : plan.copies)
     if (copy.parts.empty())
       roles.push_back({"", name_of_file(copy.source), "", copy.turns_green ? "green inverted" : "copied",
                        name_of_file(copy.path)});

@@ -65,35 +65,34 @@ class MergedReports {
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       const bool continues = i > 0 && !jobs[i].tile.empty() && jobs[i].name == jobs[i - 1].name;
       if (!continues) sets_.emplace_back();
-      sets_.back().jobs.emplace_back();
-      set_of_[i] = {sets_.size() - 1, sets_.back().jobs.size() - 1};
+      sets_.back().emplace_back();
+      set_of_[i] = {sets_.size() - 1, sets_.back().size() - 1};
     }
+    for (const auto& set : sets_) unfinished_.push_back(set.size());
   }
 
   void finish(std::size_t job, JobReport report) {
     const std::lock_guard lock(mutex_);
-    Set& set = sets_[set_of_[job].first];
-    set.jobs[set_of_[job].second] = std::move(report);
-    if (++set.finished_count < set.jobs.size()) return;
-    for (std::size_t i = 1; i < set.jobs.size(); ++i) set.jobs.front() += set.jobs[i];
-    set.jobs.resize(1);
-    finished_(set.jobs.front());
+    const auto [number, place] = set_of_[job];
+    std::vector<JobReport>& set = sets_[number];
+    set[place] = std::move(report);
+    if (--unfinished_[number] > 0) return;
+    for (std::size_t i = 1; i < set.size(); ++i) set.front() += set[i];
+    set.resize(1);
+    finished_(set.front());
   }
 
   std::vector<JobReport> all() {
     std::vector<JobReport> reports;
-    for (Set& set : sets_) reports.push_back(std::move(set.jobs.front()));
+    for (std::vector<JobReport>& set : sets_) reports.push_back(std::move(set.front()));
     return reports;
   }
 
  private:
-  struct Set {
-    std::vector<JobReport> jobs;
-    std::size_t finished_count = 0;
-  };
   const std::function<void(const JobReport&)> finished_;
   std::mutex mutex_;
-  std::vector<Set> sets_;
+  std::vector<std::vector<JobReport>> sets_;                 // the reports of each set's jobs
+  std::vector<std::size_t> unfinished_;                      // number of unfinished jobs of each set
   std::vector<std::pair<std::size_t, std::size_t>> set_of_;  // index of the set, and of the job in it
 };
 
@@ -146,7 +145,7 @@ std::vector<JobReport> run_jobs(const ConvertPlan& plan,
   const auto threads = static_cast<std::size_t>(plan.threads);
   const std::size_t at_once = std::clamp<std::size_t>(jobs.size(), 1, threads);
   const int threads_a_job = static_cast<int>(threads / at_once);
-  set_image_limits({threads_a_job, plan.memory_bytes / at_once});
+  set_image_limits(threads_a_job, plan.memory_bytes / at_once);
   OutputFolder folder(plan);
   const JobWorker worker =
       plan.sets() != nullptr ? set_worker(plan, folder, threads_a_job) : asset_worker(plan, folder);

@@ -54,7 +54,7 @@ std::string inputs_hash(const OpenFiles& files, const SetWork& set, const OpenFi
   return hash.hex();
 }
 
-Metadata metadata_of(const ChosenConverter& chosen) {
+Metadata metadata_of(const BuiltConversion& chosen) {
   const ConverterInfo& info = chosen.info();
   return {{"remap:converter", converter_ids(chosen)},
           {"remap:source", info.source.model},
@@ -63,9 +63,9 @@ Metadata metadata_of(const ChosenConverter& chosen) {
 }
 
 // Refuses maps that were converted before to another model than the source of this conversion.
-void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, JournalLookup& journals) {
+void require_not_converted(const TextureSet& set, const BuiltConversion& chosen, JournalLookup& journals) {
   const std::string& source = chosen.info().source.model;
-  const WorkflowChoice& workflow = chosen.workflow;
+  const ConversionChoice& workflow = chosen.choice;
   const WorkflowEnd end = workflow.is_material()
                               ? *workflow.source
                               : workflow_over(source, WorkflowKind::kSpecular, RoughnessEncoding::kAlpha).end;
@@ -81,8 +81,8 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
 
 std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
   std::vector<std::filesystem::path> files;
-  for (const PlannedMap& map : plan.maps) files.push_back(map.path);
-  for (const PlannedCopy& copy : plan.copies) files.push_back(copy.path);
+  for (const PlannedFile& map : plan.maps) files.push_back(map.path);
+  for (const PlannedFile& copy : plan.copies) files.push_back(copy.path);
   return files;
 }
 
@@ -112,7 +112,7 @@ void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, J
     }
 }
 
-JobReport::Result result_of(const PlannedMap& planned) {
+JobReport::Result result_of(const PlannedFile& planned) {
   JobReport::Result result{planned.path, {}, false};
   for (const TargetPart& part : planned.parts)
     for (const TargetChannel& channel : part.channels) {
@@ -126,7 +126,11 @@ JobReport::Result result_of(const PlannedMap& planned) {
 class SetWorker {
  public:
   SetWorker(const ConvertPlan& plan, OutputFolder& folder, int threads)
-      : plan_(plan), sets_(*plan.sets()), chosen_(sets_.chosen), folder_(folder), pass_(sets_.pass) {
+      : plan_(plan),
+        sets_(*plan.sets()),
+        chosen_(sets_.chosen),
+        folder_(folder),
+        pass_{sets_.targets.treatment} {
     pass_.thread_count = threads;
     pass_.cancelled = &interruption();
   }
@@ -140,13 +144,13 @@ class SetWorker {
   // Returns the encoding of roughness results if neither a name nor an option gives it. With a workflow, it
   // is the target model's. Otherwise, it is the encoding of the inputs if known, or else the target model's.
   RoughnessEncoding usual_width(const TextureSet& set) const {
-    if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
+    if (chosen_.choice.is_material()) return width_of(*chosen_.choice.target);
     return set.convention.value_or(chosen_.info().target.roughness);
   }
 
   const ConvertPlan& plan_;
   const SetPlan& sets_;
-  const ChosenConverter& chosen_;
+  const BuiltConversion& chosen_;
   OutputFolder& folder_;
   PassOptions pass_;
   JournalLookup journals_;  // journals of the inputs
@@ -160,7 +164,7 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
   for (const auto& [parameter, role] : kColors) {
     const SetParameter* const map = set.map_of(parameter);
     if (map == nullptr) continue;
-    const auto issue = color_issue(role, map->transfer, sample.rows.at(parameter));
+    const auto issue = color_issue(role, map->transfer, sample.at(parameter));
     if (!issue) continue;
     std::string text = set.maps[map->channels.front().map].path().string() + ": " + plain_name(parameter) +
                        ", " + issue->text;
@@ -174,15 +178,16 @@ void note_colors(const MaterialSample& sample, const TextureSet& set, JobReport&
 // Samples the maps of a workflow and adds warnings. Returns a converter only for this set if its dielectric
 // F0 is estimated from the maps.
 std::unique_ptr<Converter> SetWorker::survey(TextureSet& set, JobReport& report) const {
-  const WorkflowChoice& workflow = chosen_.workflow;
+  const ConversionChoice& workflow = chosen_.choice;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
   note_colors(sample, set, report);
   if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
-  WorkflowStages stages = stages_of(chosen_.workflow, chosen_.brdf);
+  WorkflowStages stages = stages_of(chosen_.choice, chosen_.brdf);
   const RoughnessEncoding width = set.convention.value_or(chosen_.info().source.roughness);
-  if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
-  if (!workflow.estimates_f0) return nullptr;
+  if (!std::holds_alternative<double>(sets_.dielectric_f0))
+    report.estimated_f0 = estimated_f0(sample, stages, width);
+  if (sets_.dielectric_f0 != F0Choice(F0Source::kMaps)) return nullptr;
   if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
     report.warnings.push_back(report.inputs.front().string() +
                               ": too few texels to estimate the dielectric F0; the default is used "
@@ -226,7 +231,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
                                   " is set to " + value);
     };
     note("occlusion", "1");
-    if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
+    if (!chosen_.choice.is_to_metallic()) note("metallic", "0");
   }
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer->layout().lossy_compression; !lossy.empty())
@@ -237,7 +242,7 @@ void SetWorker::note_issues(const TextureSet& set, const std::vector<TargetMap>&
 
 // Makes a finished copy without a final name, and appends the function that gives it the name. The copy is
 // removed with this function if it never gets a name.
-FinishedFile finished_copy(const PlannedCopy& copy, const std::shared_ptr<const InputFile>& source,
+FinishedFile finished_copy(const PlannedFile& copy, const std::shared_ptr<const InputFile>& source,
                            std::vector<std::function<void()>>& renames) {
   if (copy.turns_green) {
     const std::shared_ptr<NewImage> image = turned_copy(source, copy.path);
@@ -258,7 +263,7 @@ void SetWorker::commit(const Job& job, const TargetPlan& targets, const OpenFile
   std::vector<FinishedFile> results;
   for (const TargetMap& target : finished) results.push_back(finished_file(*target.writer));
   std::vector<std::function<void()>> renames;
-  for (const PlannedCopy& copy : targets.copies)
+  for (const PlannedFile& copy : targets.copies)
     results.push_back(finished_copy(copy, file_among(files, copy.source), renames));
   folder_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, results, [&] {
     for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
@@ -292,7 +297,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
                         " depends on a map, so no file is written (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
-  const RoughnessEncoding width = written_width(sets_.pass.target_convention, choice, set, usual_width(set));
+  const RoughnessEncoding width = written_width(choice, set, usual_width(set));
   const bool is_exponent = width == RoughnessEncoding::kExponent;
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                           ? "exponent"
@@ -302,12 +307,12 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     std::erase(choice.unchanged, Parameter::kRoughness);
   const TargetPlan targets = plan_targets(set, choice);
   if (is_exponent && !sets_.scales_exponents) require_target_scale(set, targets);
-  for (const PlannedMap& map : targets.maps) report.results.push_back(result_of(map));
-  for (const PlannedCopy& copy : targets.copies)
+  for (const PlannedFile& map : targets.maps) report.results.push_back(result_of(map));
+  for (const PlannedFile& copy : targets.copies)
     if (copy.parts.empty())
       report.copies.push_back(copy.path);
     else
-      report.results.push_back(result_of({copy.path, copy.parts}));
+      report.results.push_back(result_of(copy));
   const std::vector<std::filesystem::path> results = results_of(targets);
   for (const std::filesystem::path& file : results) folder_.take(file, job.owner);
   report.warnings = work.notes;
@@ -365,7 +370,7 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
     return std::ranges::any_of(reports, [&](const JobReport& report) { return report.*has; });
   };
   if (std::ranges::none_of(reports, converted)) return;
-  if (plan.sets()->pass.dither && !some(&JobReport::has_8_bits))
+  if (plan.sets()->targets.treatment.dither && !some(&JobReport::has_8_bits))
     throw usage_error("--dither: has no effect, because no result has 8 bits (remove this option)");
   if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
     throw usage_error(

@@ -8,13 +8,13 @@ namespace {
 
 class OpenImageIo : public ImageLibrary {
  public:
-  void set_limits(const ImageLimits& limits) const override {
-    if (limits.memory_bytes > 0) set_image_memory(limits.memory_bytes);
-    if (limits.threads == 0) return;
-    OIIO::attribute("threads", limits.threads);
+  void set_limits(int threads, std::uint64_t memory_bytes) const override {
+    if (memory_bytes > 0) set_image_memory(memory_bytes);
+    if (threads == 0) return;
+    OIIO::attribute("threads", threads);
     // With -1, OpenEXR works in the calling thread. With 1, it would start a thread, and the caller would
     // wait.
-    OIIO::attribute("exr_threads", limits.threads == 1 ? -1 : limits.threads);
+    OIIO::attribute("exr_threads", threads == 1 ? -1 : threads);
   }
   std::unique_ptr<StoredImage> open(const std::filesystem::path& path, int part) const override {
     return open_image(std::make_shared<const InputFile>(path), part);

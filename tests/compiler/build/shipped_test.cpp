@@ -117,8 +117,8 @@ TEST_CASE("shipped: pictures are nearer to the source's than those of copied num
     if (!fit.pictures) continue;
     INFO(fit.id);
     ++judged;
-    CHECK(fit.pictures->converted.rmse < fit.pictures->copied.rmse);
-    CHECK(fit.pictures->converted.relative <= fit.pictures->copied.relative);
+    CHECK(fit.pictures->rmse < fit.copied_pictures->rmse);
+    CHECK(fit.pictures->relative <= fit.copied_pictures->relative);
   }
   CHECK(judged >= 42);
 }

@@ -30,7 +30,7 @@ TEST_CASE("emit: the description of a header has the values of the fit and no co
   }
   const auto& converter = std::get<ConverterData>(data.code);
   CHECK(converter == fit.converter);
-  CHECK(converter.info.image_rms_error >= fit.image_similarity->image_error.rms);
+  CHECK(converter.info.image_rms_error >= fit.image_error->rms);
 }
 
 TEST_CASE("emit: the committed header is what its fit gives, read again or not") {

@@ -35,7 +35,7 @@ inline Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string&
   options.kind = "parametric";
   options.seed = seed;
   options.form = form;
-  return fit_table(table, table_text(table), options).fit;
+  return fit_table(table, table_text(table), options);
 }
 
 // Returns a mapping of the paper's form.

@@ -32,11 +32,11 @@ Environment constant_environment(float radiance) {
 }
 
 // Returns an environment whose only light comes from a cap of 10 degrees around a direction.
-Environment cap_environment(const Direction& middle) {
+Environment cap_environment(const Vector3& middle) {
   Environment environment{"cap", {128, 64, 3, {}}};
   for (int row = 0; row < 64; ++row)
     for (int column = 0; column < 128; ++column) {
-      const Direction w = map_direction({(column + 0.5) / 128.0, (row + 0.5) / 64.0});
+      const Vector3 w = map_direction({(column + 0.5) / 128.0, (row + 0.5) / 64.0});
       const bool lit = w.x * middle.x + w.y * middle.y + w.z * middle.z > std::cos(10.0 * pi / 180.0);
       environment.map.values.insert(environment.map.values.end(), 3, lit ? 1.0f : 0.0f);
     }
@@ -115,15 +115,16 @@ double directional_albedo(const SphereMaterial& material, double cos_view) {
   return sum;
 }
 
-std::vector<EnvironmentComparison> comparisons_of(const EnvironmentsResult& result, Method method) {
+std::vector<EnvironmentComparison> comparisons_of(const std::vector<EnvironmentComparison>& result,
+                                                  Method method) {
   std::vector<EnvironmentComparison> chosen;
-  for (const EnvironmentComparison& comparison : result.comparisons)
+  for (const EnvironmentComparison& comparison : result)
     if (comparison.conversion.method == method) chosen.push_back(comparison);
   return chosen;
 }
 
 // Returns means over the comparisons of one method. `energy` is the mean of the absolute values.
-EnvironmentComparison means_of(const EnvironmentsResult& result, Method method) {
+EnvironmentComparison means_of(const std::vector<EnvironmentComparison>& result, Method method) {
   EnvironmentComparison mean;
   const std::vector<EnvironmentComparison> chosen = comparisons_of(result, method);
   for (const EnvironmentComparison& comparison : chosen) {
@@ -148,7 +149,7 @@ EnvironmentsOptions small_study() {
 }  // namespace
 
 TEST_CASE("environment: the middle of a map lies behind the sphere, its right half on the right") {
-  const auto check = [](const Direction& direction, double u, double v) {
+  const auto check = [](const Vector3& direction, double u, double v) {
     const MapPosition position = map_position(direction);
     CHECK(position.u == Approx(u).margin(1e-12));
     CHECK(position.v == Approx(v).margin(1e-12));
@@ -167,7 +168,7 @@ TEST_CASE("environment: the middle of a map lies behind the sphere, its right ha
 
 TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   const SphereMaterial shiny{builtin_brdf("mitsuba/beckmann-plain"), 0.05, 1.0};
-  const auto shown = [&](const Direction& light) {
+  const auto shown = [&](const Vector3& light) {
     return centroid(render(cap_environment(light), shiny, 33, 256));
   };
   const Centroid behind_camera = shown({0.0, 0.0, 1.0});
@@ -323,9 +324,9 @@ TEST_CASE("environment: the built-in ones are finite light, and the clear sky is
 TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ggx", "mitsuba/ggx"}};
-  const EnvironmentsResult result = study_environments(options);
+  const auto result = study_environments(options);
   // There are 2 alphas and 3 environments, copied numbers and three objectives.
-  REQUIRE(result.comparisons.size() == 24);
+  REQUIRE(result.size() == 24);
   const EnvironmentComparison copy = means_of(result, Method::kCopy);
   CHECK(copy.rmse == 0.0);
   CHECK(copy.ssim == Approx(1.0).epsilon(1e-6));
@@ -340,7 +341,7 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
 TEST_CASE(
     "study environments: the objective natural looks more alike than copying, and no thread changes it") {
   EnvironmentsOptions options = small_study();
-  const EnvironmentsResult result = study_environments(options);
+  const auto result = study_environments(options);
   const EnvironmentComparison copy = means_of(result, Method::kCopy);
   const EnvironmentComparison natural = means_of(result, Method::kNatural2);
   CHECK(natural.rmse < 0.8 * copy.rmse);
@@ -348,7 +349,7 @@ TEST_CASE(
   CHECK(natural.energy < copy.energy);
   const std::string csv = environments_csv(options, result);
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) ==
-        7 + result.comparisons.size());  // comments and header
+        7 + result.size());  // comments and header
   options.jobs = 1;
   CHECK(environments_csv(options, study_environments(options)) == csv);
 }
@@ -360,13 +361,13 @@ TEST_CASE("study environments: no method has less than the least error, and copi
   options.resolution = 48;  // the resolution of the search
   options.samples = 256;
   options.least_error = true;
-  const EnvironmentsResult result = study_environments(options);
+  const auto result = study_environments(options);
   const EnvironmentComparison best = means_of(result, Method::kBest);
   for (const Method method : {Method::kCopy, Method::kPaper, Method::kNatural1, Method::kNatural2})
     CHECK(best.rmse < means_of(result, method).rmse);
 
   options.pairs = {{"mitsuba/as", "mitsuba/as"}};
-  const EnvironmentsResult same = study_environments(options);
+  const auto same = study_environments(options);
   const Conversion found = comparisons_of(same, Method::kBest).front().conversion;
   CHECK(found.target_alpha == Approx(0.3).epsilon(0.01));
   CHECK(found.target_specular == Approx(0.5).epsilon(0.01));
@@ -376,7 +377,7 @@ TEST_CASE("study environments: a fit is used as shipped") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ward", "mitsuba/as"}};
   options.fits = {load_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json")};
-  const EnvironmentsResult result = study_environments(options);
+  const auto result = study_environments(options);
   const auto shipped = comparisons_of(result, Method::kShipped);
   const auto natural = comparisons_of(result, Method::kNatural2);
   REQUIRE(shipped.size() == natural.size());

@@ -25,7 +25,7 @@ Fit fit_of(const std::string& source, const std::string& target, Parametric form
   fit.mapping = std::move(form);
   fit.alpha_error = {1e-3, 2e-3, 3e-3};
   fit.specular_error = {2e-3, 4e-3, 6e-3};
-  fit.image_similarity = ImageSimilarity{{0.1, 0.2, 0.3}, {}};
+  fit.image_error = ErrorFigures{0.1, 0.2, 0.3};
   return fit;
 }
 
@@ -106,10 +106,10 @@ TEST_CASE("chain: errors of the steps are carried on, image errors add up") {
   CHECK(chain.alpha_error.rms == Approx(1e-3 * std::hypot(0.5, 1.0)).epsilon(1e-5));
   CHECK(chain.alpha_error.max == Approx(3e-3 * 1.5).epsilon(1e-5));
   CHECK(chain.specular_error.rms == Approx(2e-3 * std::hypot(2.0, 1.0)).epsilon(1e-5));
-  CHECK(chain.image_similarity->image_error.rms == Approx(0.2));
+  CHECK(chain.image_error->rms == Approx(0.2));
   Fit unknown = b;
-  unknown.image_similarity.reset();
-  CHECK_FALSE(compose({a, unknown}).image_similarity.has_value());
+  unknown.image_error.reset();
+  CHECK_FALSE(compose({a, unknown}).image_error.has_value());
 }
 
 TEST_CASE("chain: against its steps, with the rules of their domains") {

@@ -34,7 +34,8 @@ Fit sample_fit() {
   fit.specular_error = {4e-4, 5e-4, 6e-4};
   fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
   fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
-  fit.image_similarity = ImageSimilarity{{0.05, 0.1, 0.2}, {{0.1, 0.99}, {0.5, 0.97}}};
+  fit.image_error = ErrorFigures{0.05, 0.1, 0.2};
+  fit.ssim = {{0.1, 0.99}, {0.5, 0.97}};
   fit.remarks = {"one", "two"};
   fit.tool_version = "0.1.0";
   return fit;
@@ -69,7 +70,8 @@ Fit compact_fit() {
   form.hinge = {-0.5f, 0.25f, 0.5f, 0.1f};
   fit.mapping = form;
   fit.limits = {0.9, 1.0};
-  fit.pictures = JudgedPictures{{5.5, 0.125}, {9.0, 1.0 / 3.0}};
+  fit.pictures = PictureErrors{5.5, 0.125};
+  fit.copied_pictures = PictureErrors{9.0, 1.0 / 3.0};
   fit.candidates.front().pictures = PictureErrors{5.5, 0.1};
   return fit;
 }

@@ -34,7 +34,7 @@ Fit fit_of(const MappingKind& mapping, const Domain& domain) {
 }
 
 // Returns the largest difference from the mapping on random texels, as a fraction of the bounds.
-Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed) {
+MappedTexel worst_share(const Fit& fit, const ConverterData& lowered, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto between = [&](const Range& range) {
@@ -42,7 +42,7 @@ Distance worst_share(const Fit& fit, const Lowered& lowered, std::uint64_t seed)
     return std::clamp(static_cast<float>(range.min + (range.max - range.min) * q * q),
                       static_cast<float>(range.min), static_cast<float>(range.max));
   };
-  Distance worst;
+  MappedTexel worst;
   for (int i = 0; i < kPoints; ++i) {
     const float a = between(fit.domain.alpha), s = between(fit.domain.specular),
                 t = s / (s + lowered.form.pole);
@@ -80,14 +80,14 @@ TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow
     const std::uint64_t first = is_full_campaign() ? 0 : 2;
     const int models = is_full_campaign() ? campaign_length(100) : 3;
     int met = 0;
-    Distance worst;
+    MappedTexel worst;
     for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(models); ++seed) {
       INFO(kind << " " << seed);
       const RandomModel model = random_model(kind, seed);
       const Fit fit = fit_of(model.mapping, model.domain);
       try {
-        const Lowered lowered = lower(fit, 1e-2);
-        const Distance found = worst_share(fit, lowered, seed);
+        const ConverterData lowered = lower(fit, 1e-2);
+        const MappedTexel found = worst_share(fit, lowered, seed);
         CHECK(found.alpha <= 1.0);
         CHECK(found.specular <= 1.0);
         worst = {std::max(worst.alpha, found.alpha), std::max(worst.specular, found.specular)};
@@ -104,21 +104,21 @@ TEST_CASE("lower: random models keep their proven bound, or are refused", "[slow
 }
 
 TEST_CASE("lower: a straight line has two numbers, and a compact fit stays as it is") {
-  const Lowered lowered = lower(fit_of(line(), kWhole));
+  const ConverterData lowered = lower(fit_of(line(), kWhole));
   CHECK(number_count(lowered.form) == 2);
   CHECK(lowered.alpha_bound < 1e-5);
   CompactForm form;
   form.alpha = {{1.1f, -0.1f}, {0.2f}};
   form.specular = {{0.8f, 0.05f}, {0.1f}};
   form.pole = 0.25f;
-  const Lowered same = lower(fit_of(form, kWhole));
+  const ConverterData same = lower(fit_of(form, kWhole));
   CHECK(same.form == form);
   CHECK(same.alpha_bound < 1e-5);
   CHECK(same.specular_bound < 1e-5);
 }
 
 TEST_CASE("lower: the form of the paper takes few terms") {
-  const Lowered lowered = lower(fit_of(example_fit().mapping, example_fit().domain));
+  const ConverterData lowered = lower(fit_of(example_fit().mapping, example_fit().domain));
   CHECK(number_count(lowered.form) <= 12);
   CHECK(lowered.alpha_bound <= 1e-3);
 }
@@ -126,11 +126,11 @@ TEST_CASE("lower: the form of the paper takes few terms") {
 TEST_CASE("lower: limits that are reached are part of the form") {
   Fit fit = fit_of(Parametric{{{1.5}}, {{1, {1.6, 0.0, 0.0, 0.0, 0.0, 0.0}}}}, kWhole);
   fit.limits = {1.0, 1.0};
-  const Lowered lowered = lower(fit);
+  const ConverterData lowered = lower(fit);
   CHECK(lowered.form.alpha_limit == 1.0f);
   CHECK(lowered.form.specular_limit == 1.0f);
   fit.limits = {2.0, 2.0};
-  const Lowered free = lower(fit);
+  const ConverterData free = lower(fit);
   CHECK_FALSE(free.form.alpha_limit.has_value());
   CHECK_FALSE(free.form.specular_limit.has_value());
 }
@@ -150,7 +150,7 @@ TEST_CASE("lower: a spike between the samples is seen by the proof") {
 
 TEST_CASE("proof: a form that is changed after the fact is caught") {
   const Fit fit = fit_of(Parametric{{{0.8, 0.1}}, {{1, {0.7, 0.0, 0.0, -0.3, 2.0, 0.0}}}}, kLit);
-  const Lowered lowered = lower(fit);
+  const ConverterData lowered = lower(fit);
   const auto bound_of = [&](const CompactForm& form) {
     return proven_distance(fit.mapping, form, kLit, {lowered.alpha_bound, lowered.specular_bound}, 4000);
   };

@@ -27,20 +27,17 @@ inline double oren_nayar_factor(double cos_light, double cos_view, double cos_be
 // Returns the radiance of a white sphere of this reflectance at the centres of pixels, in one channel.
 inline Image oren_nayar_picture(const Scene& scene, double sigma) {
   const double angle = scene.light.angle * std::numbers::pi / 180.0;
-  const SurfacePoint light = {scene.light.distance * std::sin(angle), 0.0,
-                              scene.light.distance * std::cos(angle)};
-  const auto length = [](const SurfacePoint& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); };
-  const auto dot = [](const SurfacePoint& a, const SurfacePoint& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  };
+  const Vector3 light = {scene.light.distance * std::sin(angle), 0.0, scene.light.distance * std::cos(angle)};
+  const auto length = [](const Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); };
+  const auto dot = [](const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
   Image image{scene.resolution, scene.resolution, 1, {}};
   for (int row = 0; row < scene.resolution; ++row)
     for (int column = 0; column < scene.resolution; ++column) {
-      SurfacePoint p{};
+      Vector3 p{};
       double radiance = 0.0;
       if (sphere_point(scene.resolution, column + 0.5, row + 0.5, &p)) {
-        const SurfacePoint to_light = {light.x - p.x, light.y - p.y, light.z - p.z},
-                           to_view = {-p.x, -p.y, kCameraDistance - p.z};
+        const Vector3 to_light = {light.x - p.x, light.y - p.y, light.z - p.z},
+                      to_view = {-p.x, -p.y, kCameraDistance - p.z};
         const double far = length(to_light), near = length(to_view);
         const double cos_light = dot(p, to_light) / far, cos_view = dot(p, to_view) / near;
         if (cos_light > 0.0)

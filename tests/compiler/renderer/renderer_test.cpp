@@ -68,7 +68,7 @@ constexpr int kSide = 65, kRow = 25, kColumn = 44;
 constexpr double kLightAngle = 50.0;
 
 PixelGeometry pixel_geometry() {
-  SurfacePoint n{};
+  Vector3 n{};
   REQUIRE(sphere_point(kSide, kColumn + 0.5, kRow + 0.5, &n));
   const double angle = kLightAngle * pi / 180.0;
   double l[3] = {3.0 * std::sin(angle) - n.x, -n.y, 3.0 * std::cos(angle) - n.z};

@@ -16,7 +16,7 @@ namespace {
 constexpr int kShapeSide = 96;
 
 // Returns the distance from the torus by its definition, with the axis (0, sin, cos) of the tilt.
-double from_torus(const SurfacePoint& p) {
+double from_torus(const Vector3& p) {
   const double tilt = kTorusTilt * pi / 180.0;
   const double height = p.y * std::sin(tilt) + p.z * std::cos(tilt);
   const double flat = std::sqrt(std::max(0.0, p.x * p.x + p.y * p.y + p.z * p.z - height * height));
@@ -32,7 +32,7 @@ TEST_CASE("shape: every point of the torus lies on it and on its ray, with the n
       SurfaceHit hit{};
       if (!shape_point(Shape::kTorus, kShapeSide, column + 0.5, row + 0.5, &hit)) continue;
       ++hits;
-      const SurfacePoint ray = camera_ray(kShapeSide, column + 0.5, row + 0.5);
+      const Vector3 ray = camera_ray(kShapeSide, column + 0.5, row + 0.5);
       const double t = kCameraDistance - hit.position.z;
       CHECK(std::fabs(from_torus(hit.position)) < 1e-9);
       CHECK(hit.position.x == Approx(t * ray.x).margin(1e-9));

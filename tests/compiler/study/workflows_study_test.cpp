@@ -52,9 +52,9 @@ double mean_rmse(const WorkflowComparison& comparison, std::size_t method) {
 
 TEST_CASE("study workflows: floor, projection, equation (3), in this order, in both conventions", "[slow]") {
   const WorkflowsOptions options = small_study(60);
-  const WorkflowsResult result = study_workflows(options);
-  REQUIRE(result.comparisons.size() == 2);
-  for (const WorkflowComparison& comparison : result.comparisons) {
+  const auto result = study_workflows(options);
+  REQUIRE(result.size() == 2);
+  for (const WorkflowComparison& comparison : result) {
     INFO(comparison.convention);
     const double floor = mean_rmse(comparison, place_of(comparison, kLeastErrorMethod));
     const double projection = mean_rmse(comparison, place_of(comparison, "projection"));
@@ -66,7 +66,7 @@ TEST_CASE("study workflows: floor, projection, equation (3), in this order, in b
     }
     CHECK(projection < 1.2 * floor);  // this is 6 % under lights like those that chose the weights
   }
-  const WorkflowComparison& plain = result.comparisons.front();
+  const WorkflowComparison& plain = result.front();
   CHECK(mean_rmse(plain, place_of(plain, "equation (3), weighted, 0.03")) <
         mean_rmse(plain, place_of(plain, "equation (3), mean, 0.03")));
 }
@@ -78,8 +78,8 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
   for (const double metallic : {0.0, 0.4, 1.0})
     options.materials.push_back(
         {"family", "family", reflectances_of({{0.7, 0.4, 0.2}, metallic}, reflection), 0});
-  const WorkflowsResult result = study_workflows(options);
-  const WorkflowComparison& plain = result.comparisons.front();
+  const auto result = study_workflows(options);
+  const WorkflowComparison& plain = result.front();
   const auto& projected = plain.pictures[place_of(plain, "projection")];
   const auto& best = plain.pictures[place_of(plain, kLeastErrorMethod)];
   CHECK(projected[0].surface.metallic == Approx(0.0).margin(1e-3));
@@ -140,11 +140,11 @@ TEST_CASE(
 
 TEST_CASE("study workflows: tables, sheets and the same figures for any number of jobs", "[slow]") {
   WorkflowsOptions options = small_study(6);
-  options.sheets = true;
-  const WorkflowsResult result = study_workflows(options);
-  CHECK(result.sheets.size() == options.environments.size());
+  std::vector<Image> sheets;
+  const auto result = study_workflows(options, &sheets);
+  CHECK(sheets.size() == options.environments.size());
   const std::string csv = workflows_csv(options, result);
-  const std::size_t methods = result.comparisons[0].methods.size() + result.comparisons[1].methods.size();
+  const std::size_t methods = result[0].methods.size() + result[1].methods.size();
   // There are three environments and the headlight, 5 comments and the header.
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == 6 * methods * 4 + 6);
   CHECK_THAT(csv, Contains(",headlight,") && !Contains("nan"));

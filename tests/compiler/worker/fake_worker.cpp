@@ -232,7 +232,7 @@ remap::Image lit_by_lamp(const json& request) {
   }
   remap::Image image{place.resolution, place.resolution, 3, std::vector<float>(pictures[0].values.size())};
   for (int i = 0; i < place.resolution * place.resolution; ++i) {
-    remap::SurfacePoint p{};
+    remap::Vector3 p{};
     if (!remap::sphere_point(place.resolution, i % place.resolution + 0.5, i / place.resolution + 0.5, &p))
       continue;
     const double u = 0.5 + std::atan2(p.x, p.z) / 3.14159265358979, v = std::acos(p.y) / 3.14159265358979;

@@ -35,11 +35,9 @@ TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three d
     add_converter(&fit);
     return fit.converter->info.ssim;
   };
-  fit.image_similarity->ssim = {{0.1, 0.5}, {0.5, 0.75}, {0.9, 0.751}};
+  fit.ssim = {{0.1, 0.5}, {0.5, 0.75}, {0.9, 0.751}};
   CHECK(ssim() == 0.667);
-  fit.image_similarity->ssim.clear();
-  CHECK_FALSE(ssim().has_value());
-  fit.image_similarity.reset();
+  fit.ssim.clear();
   CHECK_FALSE(ssim().has_value());
 }
 

@@ -8,7 +8,7 @@
 using namespace remap;
 
 TEST_CASE("scene: the middle of the image shows the pole of the sphere") {
-  SurfacePoint point;
+  Vector3 point;
   REQUIRE(sphere_point(100, 50.0, 50.0, &point));
   CHECK(point.x == Approx(0.0).margin(1e-15));
   CHECK(point.y == Approx(0.0).margin(1e-15));
@@ -16,7 +16,7 @@ TEST_CASE("scene: the middle of the image shows the pole of the sphere") {
 }
 
 TEST_CASE("scene: row 0 is the top and column 0 is -x") {
-  SurfacePoint point;
+  Vector3 point;
   REQUIRE(sphere_point(100, 25.0, 50.0, &point));
   CHECK(point.x < 0.0);
   REQUIRE(sphere_point(100, 50.0, 25.0, &point));
@@ -26,7 +26,7 @@ TEST_CASE("scene: row 0 is the top and column 0 is -x") {
 TEST_CASE("scene: every point lies on the unit sphere and on its ray") {
   for (double column = 0.5; column < 64.0; column += 7.0) {
     for (double row = 0.5; row < 64.0; row += 5.0) {
-      SurfacePoint p;
+      Vector3 p;
       if (!sphere_point(64, column, row, &p)) continue;
       CHECK(p.x * p.x + p.y * p.y + p.z * p.z == Approx(1.0).epsilon(1e-12));
       // The slope of the ray follows from the projection: half the image spans tan(asin(1/3)).
@@ -37,7 +37,7 @@ TEST_CASE("scene: every point lies on the unit sphere and on its ray") {
 }
 
 TEST_CASE("scene: the sphere fills the image to its edges and not its corners") {
-  SurfacePoint point;
+  Vector3 point;
   CHECK(sphere_point(1000, 0.01, 500.0, &point));
   CHECK_FALSE(sphere_point(1000, 0.5, 0.5, &point));
 }

@@ -142,9 +142,10 @@ TEST_CASE("chained converter: says what it is made of") {
   for (Fit& fit : fits) {
     fit.alpha_error.rms = 0.001;
     fit.specular_error.rms = 0.002;
-    fit.image_similarity = ImageSimilarity{{0.05, 0.06, 0.07}, {{0.1, 1.0}, {0.5, 0.9}}};
+    fit.image_error = ErrorFigures{0.05, 0.06, 0.07};
+    fit.ssim = {{0.1, 1.0}, {0.5, 0.9}};
   }
-  fits[1].image_similarity->ssim = {{0.1, 0.8}, {0.5, 0.9}};
+  fits[1].ssim = {{0.1, 0.8}, {0.5, 0.9}};
   const ConverterInfo info = make_chained_converter(SteppedFits(fits).steps)->info();
   CHECK(info.id == "example_a_to_example_d");
   CHECK(info.source == fits.front().source);
@@ -154,7 +155,8 @@ TEST_CASE("chained converter: says what it is made of") {
   CHECK(info.specular_rms_error.value() == Approx(0.006));
   CHECK(*info.image_rms_error == Approx(0.15));
   CHECK(info.ssim.value() == Approx(0.85));
-  fits[1].image_similarity.reset();
+  fits[1].image_error.reset();
+  fits[1].ssim.clear();
   const ConverterInfo unknown = make_chained_converter(SteppedFits(fits).steps)->info();
   CHECK_FALSE(unknown.image_rms_error.has_value());
   CHECK_FALSE(unknown.ssim.has_value());

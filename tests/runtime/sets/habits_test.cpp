@@ -50,7 +50,7 @@ TEST_CASE("Substance Painter: specular and glossiness, with UDIM tiles") {
   CHECK(use_text(set, set.specular) == "specular of hero_Body_Specular.<UDIM>.exr");
   CHECK(set.maps[0].habit == "Substance Painter");
   CHECK(set.maps[0].tiles ==
-        std::vector<Tile>{{1001, "hero_Body_Glossiness.1001.exr"}, {1002, "hero_Body_Glossiness.1002.exr"}});
+        Tiles{{1001, "hero_Body_Glossiness.1001.exr"}, {1002, "hero_Body_Glossiness.1002.exr"}});
 }
 
 TEST_CASE("Substance Painter: its presets for renderers and engines") {

@@ -163,8 +163,7 @@ TEST_CASE("existing tiles: the tiles of the folder, by number") {
   for (const std::string name : {"a.1011.exr", "a.1001.exr", "a.0999.exr", "b.1001.exr", "a.1002.exr.bak"})
     std::ofstream(folder.path() / name).put('x');
   std::filesystem::create_directory(folder.path() / "a.1003.exr");
-  const std::vector<Tile> expected = {{1001, folder.path() / "a.1001.exr"},
-                                      {1011, folder.path() / "a.1011.exr"}};
+  const Tiles expected = {{1001, folder.path() / "a.1001.exr"}, {1011, folder.path() / "a.1011.exr"}};
   CHECK(existing_tiles(folder.path() / "a.<UDIM>.exr") == expected);
   CHECK(existing_tiles(folder.path() / "a.####.exr").size() == 3);
   CHECK(existing_tiles(folder.path() / "c.<UDIM>.exr").empty());

@@ -18,14 +18,13 @@ struct SpecGlossFactors {
   double glossiness = 1.0;
 };
 
-MetalRoughFactors projected(const SpecGlossFactors& material) {
+MaterialValues projected(const SpecGlossFactors& material) {
   static const auto converter =
       asset_converter("gltf-specgloss", "gltf", kCleanPrior, best_instruction_set());
   const auto &d = material.diffuse, &s = material.specular;
-  return metal_rough_of(
-      converted(*converter, {{Parameter::kDiffuse, {d.begin(), d.end()}},
-                             {Parameter::kSpecular, {s.begin(), s.end()}},
-                             {Parameter::kRoughness, {roughness_of(material.glossiness)}}}));
+  return converted(*converter, {{Parameter::kDiffuse, {d.begin(), d.end()}},
+                                {Parameter::kSpecular, {s.begin(), s.end()}},
+                                {Parameter::kRoughness, {roughness_of(material.glossiness)}}});
 }
 
 // Compares each texel with a conversion of factors.
@@ -43,17 +42,17 @@ void require_projected(const Reread& after, SpanValue core, const ImagePixels& d
     texel.glossiness =
         factors.glossiness *
         (specgloss.has_alpha() ? static_cast<double>(value_at(specgloss, i, specgloss.channels - 1)) : 1.0);
-    const MetalRoughFactors expected = projected(texel);
+    const MaterialValues expected = projected(texel);
     for (std::size_t c = 0; c < 3; ++c) {
-      float stored = expected.base_color[c];
+      float stored = expected.at(Parameter::kBaseColor)[c];
       from_linear(Transfer::kSrgb, {&stored, 1});
       CHECK(static_cast<double>(value_at(base, i, c)) == Approx(static_cast<double>(stored)).margin(step));
     }
     const auto factor = [&](const char* name) { return core[name].number().value_or(1.0); };
     CHECK(static_cast<double>(value_at(data, i, 1)) * factor("roughnessFactor") ==
-          Approx(static_cast<double>(expected.roughness)).margin(step));
+          Approx(static_cast<double>(expected.at(Parameter::kRoughness)[0])).margin(step));
     CHECK(static_cast<double>(value_at(data, i, 2)) * factor("metallicFactor") ==
-          Approx(static_cast<double>(expected.metallic)).margin(step));
+          Approx(static_cast<double>(expected.at(Parameter::kMetallic)[0])).margin(step));
     if (diffuse.has_alpha())
       CHECK(value_at(base, i, base.channels - 1) == value_at(diffuse, i, diffuse.channels - 1));
   }

@@ -50,12 +50,12 @@ void require_kept(const std::string& before, const AssetConversion& conversion) 
 
 TEST_CASE("Blinn's exponent and strength become roughness and F0", "[assets]") {
   // The constants (1.7 / (n + 4))^.25 and 6.3 Ks / (n + 2) were found by separate code under other lights.
-  const GgxLobe lobe = ggx_lobe(grey(0.64, 0.5, 96.078431));
-  CHECK(lobe.roughness == Approx(0.361016547).epsilon(0.04));
-  CHECK(lobe.f0[0] == Approx(0.0321171533).epsilon(0.08));
-  CHECK(ggx_lobe(grey(0.0, 0.5, 8.0)).f0[0] == Approx(0.315).epsilon(0.08));
-  CHECK(ggx_lobe(grey(0.0, 1.0, 1.0)).f0[0] == 1.0);
-  CHECK(ggx_lobe(grey(0.0, 1.0, 1e30)).roughness == ggx_lobe(grey(0.0, 1.0, 1e4)).roughness);
+  const LegacyMaterial material = grey(0.64, 0.5, 96.078431);
+  CHECK(ggx_roughness(material) == Approx(0.361016547).epsilon(0.04));
+  CHECK(ggx_f0(material)[0] == Approx(0.0321171533).epsilon(0.08));
+  CHECK(ggx_f0(grey(0.0, 0.5, 8.0))[0] == Approx(0.315).epsilon(0.08));
+  CHECK(ggx_f0(grey(0.0, 1.0, 1.0))[0] == 1.0);
+  CHECK(ggx_roughness(grey(0.0, 1.0, 1e30)) == ggx_roughness(grey(0.0, 1.0, 1e4)));
 }
 
 TEST_CASE("Core keeps the sum of diffuse and specular", "[assets]") {
@@ -66,21 +66,21 @@ TEST_CASE("Core keeps the sum of diffuse and specular", "[assets]") {
       for (const double exponent : {5.0, 50.0, 500.0}) {
         const LegacyMaterial material = grey(diffuse, specular, exponent);
         const MetalRoughFactors core = core_of_legacy(material);
-        const double sum = diffuse + ggx_lobe(material).f0[0];
-        const double share = 1.0 - static_cast<double>(core.metallic);
-        const double base = static_cast<double>(core.base_color[0]);
-        const bool is_matte = ggx_lobe(material).f0[0] < 0.001;
+        const double sum = diffuse + ggx_f0(material)[0];
+        const double share = 1.0 - core.metallic;
+        const double base = core.base_color[0];
+        const bool is_matte = ggx_f0(material)[0] < 0.001;
         if (base < 1.0 && base > 0.0 && !is_matte) CHECK(base + 0.04 * share == Approx(sum).margin(1e-6));
       }
-  CHECK(core_of_legacy(grey(0.5, 0.5, 200.0)).metallic == 0.0f);
-  CHECK(core_of_legacy(grey(0.0, 0.5, 5.0)).metallic == 1.0f);
-  CHECK(core_of_legacy(grey(0.0, 0.0, 5.0)).metallic == 0.0f);
+  CHECK(core_of_legacy(grey(0.5, 0.5, 200.0)).metallic == 0.0);
+  CHECK(core_of_legacy(grey(0.0, 0.5, 5.0)).metallic == 1.0);
+  CHECK(core_of_legacy(grey(0.0, 0.0, 5.0)).metallic == 0.0);
 }
 
 TEST_CASE("A dielectric has the highlight's F0 at every angle", "[assets]") {
   const LegacyMaterial material{{0.5, 0.1, 0.0}, {0.5, 0.25, 0.0}, 48.0};
   const LegacyDielectric result = dielectric_of_legacy(material);
-  CHECK(result.specular == ggx_lobe(material).f0[0]);
+  CHECK(result.specular == ggx_f0(material)[0]);
   CHECK(result.specular_color[1] == Approx(0.5));
   CHECK(result.base_color[0] == Approx(0.5 / (1.0 - result.specular)));
   CHECK(dielectric_of_legacy(grey(0.5, 1.0, 1.0)).base_color[0] == 1.0);
@@ -92,11 +92,11 @@ TEST_CASE("Blender's default material gains two lines, and Kd its base color", "
       "Kd 0.640000 0.640000 0.640000\nKs 0.500000 0.500000 0.500000\nNi 1.000000\nd 1.000000\nillum 2\n";
   const AssetConversion conversion = converted_mtl(text);
   REQUIRE(conversion.changed);
-  const GgxLobe lobe = ggx_lobe(grey(0.64, 0.5, 96.078431));
+  const LegacyMaterial material = grey(0.64, 0.5, 96.078431);
   CHECK(number_in(conversion, "Kd") == -1.0);
   CHECK(parse_number(value_of(conversion, "Kd").substr(0, 7)).value() ==
-        Approx(0.64 + lobe.f0[0] - 0.04).margin(1e-5));
-  CHECK(number_in(conversion, "Pr") == lobe.roughness);
+        Approx(0.64 + ggx_f0(material)[0] - 0.04).margin(1e-5));
+  CHECK(number_in(conversion, "Pr") == ggx_roughness(material));
   CHECK(value_of(conversion, "Pm") == "0");
   CHECK(conversion.text.ends_with("illum 2\nPr " + value_of(conversion, "Pr") + "\nPm 0\n"));
   CHECK(conversion.touched.size() == 3);
@@ -155,7 +155,7 @@ TEST_CASE("Channels of Kd that do not change keep their text, one number becomes
   CHECK(one.text.find("Kd 0.5 #") == std::string::npos);
   // If the form gives F0 .04, base color is the diffuse color.
   double ks = 0.5;
-  for (int i = 0; i < 20; ++i) ks *= 0.04 / ggx_lobe(grey(0.5, ks, 98.0)).f0[0];
+  for (int i = 0; i < 20; ++i) ks *= 0.04 / ggx_f0(grey(0.5, ks, 98.0))[0];
   const std::string text = number_text(ks);
   const AssetConversion same =
       converted_mtl("newmtl a\nKd .50 0.500 5e-1\nKs " + text + " " + text + " " + text + "\nNs 98\n");
@@ -226,10 +226,10 @@ TEST_CASE("Maps are converted texel by texel, as factors are", "[assets]") {
     for (std::size_t c = 0; c < 3; ++c) {
       const double back =
           static_cast<double>(linear_of_srgb(static_cast<float>(stored(base, i, c)) / 255.0f));
-      CHECK(back == Approx(static_cast<double>(expected.base_color[c])).margin(0.005));
+      CHECK(back == Approx(expected.base_color[c]).margin(0.005));
     }
-    CHECK(stored(roughness, i, 0) == std::lround(expected.roughness * 255.0f));
-    CHECK(stored(metallic, i, 0) == std::lround(expected.metallic * 255.0f));
+    CHECK(stored(roughness, i, 0) == std::lround(expected.roughness * 255.0));
+    CHECK(stored(metallic, i, 0) == std::lround(expected.metallic * 255.0));
   }
   CHECK_FALSE(converted_mtl(conversion.text, &resources).changed);
 }

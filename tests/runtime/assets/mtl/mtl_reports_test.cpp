@@ -112,10 +112,10 @@ TEST_CASE("reports: 01 each version of Blender has its scale", "[assets]") {
   CHECK(roughness(kBlender28, "225.000000") == Approx(0.5));
   CHECK(roughness(kBlender28, "323.999994") == Approx(0.4));
   // Blender 2.7 writes its hardness, which follows the specification.
-  CHECK(roughness(kBlender28, "96.078431") == Approx(ggx_lobe({{}, {.5, .5, .5}, 96.078431}).roughness));
+  CHECK(roughness(kBlender28, "96.078431") == Approx(ggx_roughness({{}, {.5, .5, .5}, 96.078431})));
   CHECK(roughness(kBlender, "0") == 1.0);
   CHECK(roughness(kBlender, "1000") == 0.0);
-  CHECK(roughness("\n  # some other tool\n", "250") == Approx(ggx_lobe({{}, {.5, .5, .5}, 250}).roughness));
+  CHECK(roughness("\n  # some other tool\n", "250") == Approx(ggx_roughness({{}, {.5, .5, .5}, 250})));
 }
 
 TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels of specular are kept",

@@ -162,18 +162,18 @@ TEST_CASE("Vertex colors are kept where every vertex has one", "[assets]") {
 
 TEST_CASE("Materials by the short forms", "[assets]") {
   const std::string lines = "Kd .64 .64 .64\nKs .5 .5 .25\nNs 96.078431\n";
-  const GgxLobe lobe = ggx_lobe({{0.64, 0.64, 0.64}, {0.5, 0.5, 0.25}, 96.078431});
+  const LegacyMaterial material{{0.64, 0.64, 0.64}, {0.5, 0.5, 0.25}, 96.078431};
   const MadeScene core = of_material(lines);
-  CHECK(core.number(core.core()["roughnessFactor"]) == Approx(lobe.roughness));
+  CHECK(core.number(core.core()["roughnessFactor"]) == Approx(ggx_roughness(material)));
   CHECK(core.number(core.core()["metallicFactor"]) == 0.0);
-  CHECK(core.number(core.core()["baseColorFactor"].children()[0]) == Approx(0.64 + lobe.f0[0] - 0.04));
+  CHECK(core.number(core.core()["baseColorFactor"].children()[0]) == Approx(0.64 + ggx_f0(material)[0] - 0.04));
   CHECK_FALSE(core.root()["extensionsUsed"]);
   const MadeScene exact = of_material(lines, {}, true);
   const SpanValue specular = exact.entry("materials", 0)["extensions"]["KHR_materials_specular"];
-  CHECK(exact.number(specular["specularFactor"]) == Approx(lobe.f0[0]));
+  CHECK(exact.number(specular["specularFactor"]) == Approx(ggx_f0(material)[0]));
   CHECK(exact.number(specular["specularColorFactor"].children()[0]) == Approx(25.0));
   CHECK(exact.number(specular["specularColorFactor"].children()[2]) == Approx(12.5));
-  CHECK(exact.number(exact.core()["baseColorFactor"].children()[0]) == Approx(0.64 / (1.0 - lobe.f0[0])));
+  CHECK(exact.number(exact.core()["baseColorFactor"].children()[0]) == Approx(0.64 / (1.0 - ggx_f0(material)[0])));
   CHECK(exact.root()["extensionsUsed"].raw() == "[\"KHR_materials_specular\"]");
   const MadeScene matte = of_material("Kd .5 .5 .5\n", {}, true);
   CHECK(matte.number(matte.entry("materials", 0)["extensions"]["KHR_materials_specular"]["specularFactor"]) ==
