@@ -14,9 +14,9 @@ namespace remap {
 const ModelDescription* diffuse_model(const std::vector<ModelDescription>& models);
 
 // Renders a ball by its external model, lit by the environment of `scene`. Light bounces once, so a model
-// without a diffuse part gets the picture of diffuse_model() added. `models` are those of its renderer. Adds
-// what the picture does not show to `notes`, unless they have it. Returns linear RGB like render_textured().
-// Throws like Renderer.
+// without a diffuse part gets the picture of diffuse_model() added. `models` are all models of its renderer.
+// Adds what the picture does not show to `notes`, unless they have it. Returns linear RGB like
+// render_textured(). Throws like Renderer.
 std::vector<float> render_external(const Renderer& renderer, const std::vector<ModelDescription>& models,
                                    const TexturedBall& ball, const Scene& scene,
                                    std::vector<std::string>& notes);

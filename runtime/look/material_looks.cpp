@@ -33,7 +33,9 @@ ShownModel::ShownModel(const std::string& model, const ConverterGraph& graph, co
   std::vector<ConverterPath> paths;
   for (const std::string& other : graph.reachable_from(model))
     if (has(other)) paths.push_back(graph.find_paths({model, other, {}}).front());
-  if (paths.empty()) throw input_error(model + ": no converter leads from it to a model that can be shown");
+  if (paths.empty())
+    throw input_error(model +
+                      ": no converter leads from it to a model that can be shown (choose another renderer)");
   const ConverterPath& closest = closest_path(paths);
   to_shown_ = make_chained_converter(closest.steps);
   name_ = target_model(closest);

@@ -1,6 +1,7 @@
 #include "texremap/report/job_looks.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/errors.hpp"
 #include "look/gltf_looks.hpp"
@@ -49,11 +50,20 @@ std::string target_brdf(const ConvertPlan& plan) {
   return plan.sets() != nullptr ? plan.sets()->chosen.choice.target_brdf : kGltfBrdf;
 }
 
-// Returns the shipped converters. If they lack a model, it is of the user's converters.
-ConverterGraph graph_with(const std::string& model, const ConvertPlan& plan) {
-  ConverterGraph shipped = shipped_graph();
-  return plan.sets() == nullptr || shipped.has_model(model) ? std::move(shipped)
-                                                            : plan.sets()->converters.graph();
+// Returns the converters of the plan, and all shipped ones, because a renderer may need others to show a
+// model.
+ConverterGraph shown_graph(const ConvertPlan& plan) {
+  const ConverterGraph shipped = shipped_graph();
+  if (plan.sets() == nullptr) return shipped;
+  std::vector<const Converter*> converters = plan.sets()->converters.graph().converters();
+  const auto is_new = [&](const Converter* converter) {
+    return std::ranges::none_of(converters,
+                                [&](const Converter* own) { return own->info().id == converter->info().id; });
+  };
+  std::vector<const Converter*> others;
+  std::ranges::copy_if(shipped.converters(), std::back_inserter(others), is_new);
+  converters.insert(converters.end(), others.begin(), others.end());
+  return ConverterGraph(std::move(converters), Detours::kRefused);
 }
 
 bool has_same_parameters(const ConversionChoice& workflow) {
@@ -65,8 +75,8 @@ bool has_same_parameters(const ConversionChoice& workflow) {
 
 JobLooks::JobLooks(const ConvertPlan& plan, const ModelTest& before, const ModelTest& after)
     : plan_(plan),
-      source_(source_brdf(plan), graph_with(source_brdf(plan), plan), before),
-      target_(target_brdf(plan), graph_with(target_brdf(plan), plan), after) {
+      source_(source_brdf(plan), shown_graph(plan), before),
+      target_(target_brdf(plan), shown_graph(plan), after) {
   const auto note = [&](const std::string& model, const ShownModel& shown) {
     const std::string of = is_linear_lobe(shown.name()) ? "the closest built-in model"
                                                         : "the closest model of " + renderer_of(shown.name());
