@@ -132,7 +132,9 @@ ConvertPlan plan_of(const PreviewCommand& command) {
   options.to = command.to;
   options.converters = command.converters;
   options.recursive = command.recursive;
-  options.output = std::filesystem::path(command.subject) / "preview";  // no file is written there
+  // No file is written there.
+  options.output =
+      std::filesystem::path(command.subject) / (is_obj_name(command.subject) ? "preview.glb" : "preview");
   options.dry_run = options.force = true;
   return resolve(std::move(options));
 }
@@ -233,7 +235,7 @@ void add_preview_command(Command& app) {
   command
       ->add_option("subject", options.subject,
                    "Fit: file, or id in the folder of fits; or your material: a folder of texture sets, or a "
-                   "glTF file")
+                   "glTF, MTL or OBJ file")
       ->required();
   command->option_group("Input");
   command->add_option("--from MODEL", options.from, model_name(),

@@ -72,7 +72,7 @@ const ModelDescription* diffuse_model(const std::vector<ModelDescription>& model
 std::vector<float> render_external(const Renderer& renderer, const std::vector<ModelDescription>& models,
                                    const TexturedBall& ball, const Scene& scene,
                                    std::vector<std::string>& notes) {
-  const ModelDescription& model = *std::ranges::find(models, ball.external, &ModelDescription::name);
+  const ModelDescription& model = *std::ranges::find(models, ball.name, &ModelDescription::name);
   std::vector<Material> materials = {dark_material(model)};
   set_map(
       model, ParameterRole::kRoughness, ball,

@@ -41,7 +41,7 @@ class BallStudio {
   std::vector<std::vector<float>> render(std::span<const TexturedBall> balls, const Image& normals,
                                          const std::function<void(double)>& progress) {
     std::vector<TexturedBall> own;
-    std::ranges::copy_if(balls, std::back_inserter(own), &std::string::empty, &TexturedBall::external);
+    std::ranges::remove_copy_if(balls, std::back_inserter(own), is_external);
     std::vector<std::vector<float>> shaded =
         own.empty() ? std::vector<std::vector<float>>{}
                     : shade(own, own.size() == balls.size() ? normals : Image(), progress);
@@ -52,7 +52,7 @@ class BallStudio {
     std::vector<std::vector<float>> pictures;
     auto next = shaded.begin();
     for (const TexturedBall& ball : balls)
-      pictures.push_back(ball.external.empty() ? std::move(*next++) : render_by_worker(ball));
+      pictures.push_back(is_external(ball) ? render_by_worker(ball) : std::move(*next++));
     return pictures;
   }
 
@@ -76,7 +76,7 @@ class BallStudio {
     scene.samples_per_axis = 1;
     scene.environment = &options_.light.map;
     scene.light_samples = options_.external_directions;
-    return render_external(*options_.renderers, models_.at(renderer_of(ball.external)), ball, scene, notes_);
+    return render_external(*options_.renderers, models_.at(renderer_of(ball.name)), ball, scene, notes_);
   }
 
   const SetPreviewOptions& options_;

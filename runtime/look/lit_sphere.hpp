@@ -84,7 +84,7 @@ struct TexturedBall {
   BrdfModel model;
   int width = 0, height = 0;
   std::vector<BallTexel> texels;
-  std::string external = {};  // model of another renderer that shows this ball; `model` then has no meaning
+  std::string name = {};  // of the model; of a model of another renderer, `model` has no meaning
 };
 
 // Renders `balls` under one environment. Returns linear RGB for each ball, for the pixels of

@@ -53,10 +53,7 @@ TexturedBall ShownModel::ball(const std::optional<WorkflowEnd>& workflow, Scaled
     maps = converted(*to_shown_, std::move(maps));
     maps.rows[Parameter::kDiffuse] = std::move(diffuse);
   }
-  const bool is_builtin = is_linear_lobe(name_);
-  TexturedBall ball = ball_of(is_builtin ? builtin_brdf(name_) : BrdfModel{}, std::move(maps));
-  if (!is_builtin) ball.external = name_;
-  return ball;
+  return ball_of(name_, std::move(maps));
 }
 
 }  // namespace remap

@@ -15,6 +15,9 @@
 
 namespace remap {
 
+// Returns true if another renderer must show the ball.
+inline bool is_external(const TexturedBall& ball) { return !ball.name.empty() && !is_linear_lobe(ball.name); }
+
 // A MaterialLooks is one material on balls.
 struct MaterialLooks {
   std::string name;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convert/linear_values.hpp"
+#include "look/brdf_models.hpp"
 
 namespace remap {
 namespace {
@@ -72,6 +73,23 @@ ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side) {
   return scaled;
 }
 
+void add_rows(const SourceParameter& source, Parameter parameter, int width, int height, ScaledMaps& scaled) {
+  const int across = width / scaled.width, down = height / scaled.height;
+  auto& rows = scaled.rows[parameter];
+  rows.assign(is_color(parameter) ? 3 : 1, std::vector<float>(scaled.count()));
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    if (source.channels.empty()) {
+      const std::size_t own = std::min(c, source.constants.size() - 1);
+      std::ranges::fill(rows[c], source.constants[own] * source.factor(own));
+      continue;
+    }
+    const std::size_t own = std::min(c, source.channels.size() - 1);
+    ConstChannelView band = source.channels[own];
+    for (int row = 0; row < scaled.height; ++row, band.first += down * band.row_stride)
+      scaled.add_means(band, source, own, across, down, row, rows[c]);
+  }
+}
+
 ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outside) {
   change_convention(maps.encoding, converter.info().source.roughness,
                     maps.rows.at(Parameter::kRoughness).front());
@@ -124,12 +142,13 @@ Image read_normals(const std::filesystem::path& file, NormalGreen green, int sid
   return normals_of(stored.rows.at(Parameter::kDiffuse), stored.width, 1.0, green);
 }
 
-TexturedBall ball_of(BrdfModel model, ScaledMaps maps) {
+TexturedBall ball_of(const std::string& model, ScaledMaps maps) {
   auto& alphas = maps.rows.at(Parameter::kRoughness).front();
   change_convention(maps.encoding, RoughnessEncoding::kAlpha, alphas);
   const auto& specular = maps.rows.at(Parameter::kSpecular);
   const auto& diffuse = maps.rows[Parameter::kDiffuse];
-  TexturedBall ball{model, maps.width, maps.height, std::vector<BallTexel>(maps.count())};
+  TexturedBall ball{is_linear_lobe(model) ? builtin_brdf(model) : BrdfModel(), maps.width, maps.height,
+                    std::vector<BallTexel>(maps.count()), model};
   for (std::size_t i = 0; i < ball.texels.size(); ++i) {
     BallTexel& texel = ball.texels[i];
     texel.alpha = std::max(static_cast<double>(alphas[i]), kLeastAlpha);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "look/lit_sphere.hpp"
+#include "remap/convert_maps.hpp"
 #include "remap/converter.hpp"
 #include "remap/pixels.hpp"
 #include "texture/normal_green.hpp"
@@ -34,6 +35,9 @@ struct ScaledMaps {
 // cannot be read.
 ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side);
 
+// Fills the rows of a parameter from a map of `width` * `height` texels, or from constants.
+void add_rows(const SourceParameter& source, Parameter parameter, int width, int height, ScaledMaps& scaled);
+
 // Converts all texels. The result has the encoding of the converter. `outside`, if not null, receives the
 // fraction of texels outside of the converter's domain.
 ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outside = nullptr);
@@ -45,7 +49,7 @@ Image normals_of(const std::vector<std::vector<float>>& stored, int width, doubl
 // because such a map holds heights. Throws kInput if the file cannot be read.
 Image read_normals(const std::filesystem::path& file, NormalGreen green, int side);
 
-// Returns the ball of maps with roughness, specular and diffuse (absent: black).
-TexturedBall ball_of(BrdfModel model, ScaledMaps maps);
+// Returns the ball of maps with roughness, specular and diffuse (absent: black) in the model of this name.
+TexturedBall ball_of(const std::string& model, ScaledMaps maps);
 
 }  // namespace remap

@@ -144,6 +144,37 @@ TEST_CASE("texremap report: sets of a BRDF model are shown with their diffuse ma
   }
 }
 
+TEST_CASE("texremap report: materials of MTL and OBJ files are shown by Blinn's lobe, then by GGX") {
+  const Session session;
+  session.make("wood.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [](int x, int, int c) {
+    return 0.3f + 0.05f * static_cast<float>(x) + 0.1f * static_cast<float>(c);
+  });
+  write_file(session.path("box.mtl"),
+             "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\nKs 0.1 0.1 0.1\nNs 60\n"
+             "newmtl metal\nKd 0 0 0\nKs 0.6 0.5 0.4\nNs 200\n");
+  write_file(session.path("box.obj"),
+             "mtllib box.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+             "usemtl wood\nf 1/1 2/2 3/3\nusemtl metal\nf 1/1 3/3 2/2\n");
+  for (const std::string& words :
+       {std::string("box.mtl -o out.mtl"), std::string("box.obj --to gltf -o out.glb"),
+        std::string("box.obj --to gltf --dry-run --force -o out.gltf")}) {
+    CAPTURE(words);
+    const auto data = reported(session, words + " --force");
+    REQUIRE(data["materials"].size() == 2);
+    CHECK(data["materials"][1]["name"] == "metal");
+    for (const auto& material : data["materials"]) {
+      REQUIRE(material["looks"].size() == 2);
+      CHECK(material["looks"][0]["model"] == "legacy/blinn-phong");
+      CHECK(material["looks"][0]["brdf"] == "plain_blinn");
+      CHECK(material["looks"][1]["model"] == "mitsuba/ggx");
+      CHECK(material["looks"][1]["rms"].get<double>() < 0.2);  // Blinn's lobe has no Fresnel effect
+    }
+    const ImagePixels wood = image_of(data, data["materials"][0]["looks"][0]["diffuse"]);
+    CHECK(std::abs(std::to_integer<int>(wood.bytes[0]) - 76) <= 2);
+    CHECK(std::abs(std::to_integer<int>(wood.bytes[3 * 7]) - 166) <= 2);
+  }
+}
+
 TEST_CASE("texremap report: sixteen materials at most, and what is not shown is said", "[slow]") {
   const Session session;
   for (int i = 10; i < 28; ++i) write_metal(session, "set" + std::to_string(i));
@@ -165,7 +196,7 @@ TEST_CASE("texremap report: names stay text") {
   CHECK_THAT(data_of(html)["command"].get<std::string>(), Contains("'in<b>&'"));
 }
 
-TEST_CASE("texremap report: an existing file stays, and MTL files are named") {
+TEST_CASE("texremap report: an existing file stays") {
   const Session session;
   write_metal(session, "a");
   write_file(session.path("r.html"), "mine");
@@ -173,11 +204,4 @@ TEST_CASE("texremap report: an existing file stays, and MTL files are named") {
   CHECK_THAT(session.texremap(words).errors, Contains("r.html"));
   CHECK(read_file(session.path("r.html")) == "mine");
   require_success(session.texremap(words + " --force"));
-  write_file(session.path("m.mtl"), "newmtl a\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 50\n");
-  const ProcessResult result = session.texremap("convert m.mtl -o n.mtl --report m.html");
-  require_success(result);
-  CHECK_THAT(result.errors,
-             Contains("warning: --report: no material can be shown: m.mtl: only glTF files can be shown"));
-  CHECK_FALSE(std::filesystem::exists(session.path("m.html")));
-  CHECK(std::filesystem::exists(session.path("n.mtl")));
 }

@@ -117,13 +117,22 @@ void settle_base(const LegacyMaps& maps, std::optional<ImagePixels> base, Legacy
     result.factors.base_color = maps.factors.diffuse;
   } else if (hardly_varies(*base, 0) && hardly_varies(*base, 1) && hardly_varies(*base, 2)) {
     const std::array<float, 4> texel = first_texel(*base);
-    for (std::size_t c = 0; c < 3; ++c) result.factors.base_color[c] = static_cast<double>(linear_of_srgb(texel[c]));
+    for (std::size_t c = 0; c < 3; ++c)
+      result.factors.base_color[c] = static_cast<double>(linear_of_srgb(texel[c]));
   } else {
     result.base_color = std::move(base);
   }
 }
 
 }  // namespace
+
+std::map<Parameter, SourceParameter> sources_of(const LegacyMaps& maps, ImagePixels& exponents) {
+  if (maps.exponent != nullptr) exponents = exponents_of(maps);
+  return {{Parameter::kDiffuse, color_source(maps.diffuse.get(), maps.factors.diffuse, "diffuse")},
+          {Parameter::kSpecular, color_source(maps.specular.get(), maps.factors.specular, "specular")},
+          {Parameter::kRoughness, value_source(maps.exponent != nullptr ? &exponents : nullptr, 0,
+                                               maps.factors.exponent, "exponent")}};
+}
 
 LegacyMapResult converted_maps(const LegacyMaps& maps) {
   const ImagePixels& model = maps.diffuse != nullptr    ? *maps.diffuse
@@ -140,12 +149,7 @@ LegacyMapResult converted_maps(const LegacyMaps& maps) {
   }
   MapConversion& conversion = sources.conversion;
   conversion.source_convention = RoughnessEncoding::kExponent;
-  conversion.sources[Parameter::kDiffuse] = color_source(sources.color, maps.factors.diffuse, "diffuse");
-  conversion.sources[Parameter::kSpecular] =
-      color_source(maps.specular.get(), maps.factors.specular, "specular");
-  if (maps.exponent != nullptr) exponents = exponents_of(maps);
-  conversion.sources[Parameter::kRoughness] =
-      value_source(maps.exponent != nullptr ? &exponents : nullptr, 0, maps.factors.exponent, "exponent");
+  conversion.sources = sources_of(maps, exponents);
   if (maps.as_dielectric) {
     f0 = ImagePixels{model.width, model.height, 3, PixelType::kFloat, {}};
     f0.bytes.resize(f0.width * f0.height * f0.texel_bytes());

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 
 #include "assets/document/image_codec.hpp"
 #include "assets/maps/legacy_material.hpp"
+#include "remap/convert_maps.hpp"
 
 namespace remap {
 
@@ -33,6 +35,10 @@ struct LegacyMapResult {
 };
 
 LegacyMapResult converted_maps(const LegacyMaps& maps);
+
+// Returns diffuse, specular and the exponent, with their factors, as sources of a conversion. `exponents`
+// receives the exponents of a map, and must outlive the result.
+std::map<Parameter, SourceParameter> sources_of(const LegacyMaps& maps, ImagePixels& exponents);
 
 ImagePixels channel_of(const ImagePixels& pixels, std::size_t channel);
 

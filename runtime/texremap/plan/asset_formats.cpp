@@ -35,6 +35,8 @@ constexpr const char* kObjRemedy =
 
 bool is_asset_name(const fs::path& path) { return kind_of_asset(path).has_value(); }
 
+bool is_obj_name(const fs::path& path) { return kind_of_asset(path) == AssetKind::kObj; }
+
 bool is_gltf_name(const fs::path& path) {
   const std::optional<AssetKind> kind = kind_of_asset(path);
   return kind == AssetKind::kGltf || kind == AssetKind::kGlb;

@@ -10,6 +10,7 @@
 namespace remap {
 
 bool is_asset_name(const std::filesystem::path& path);
+bool is_obj_name(const std::filesystem::path& path);
 // Returns true if the file is glTF, to which most options of assets apply.
 bool is_gltf_name(const std::filesystem::path& path);
 

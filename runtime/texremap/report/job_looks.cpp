@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/errors.hpp"
-#include "look/gltf_looks.hpp"
+#include "look/asset_looks.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"
@@ -124,17 +124,19 @@ MaterialLooks JobLooks::of_set(const Job& job, int side) const {
 
 std::vector<MaterialLooks> JobLooks::of_asset(const AssetWork& asset, int side, std::size_t most) const {
   const std::string context = display_path(asset.input);
-  if (!is_gltf_name(asset.input) || !is_gltf_name(asset.output))
-    throw input_error(context + ": only glTF files can be shown (convert it to glTF first)");
   const FileSource source(asset.input);
   const FolderResources files(asset);
-  const AssetConversion conversion =
-      convert_asset(source, asset.input, asset.output, std::get<AssetOptions>(plan_.work), files);
+  const auto& options = std::get<AssetOptions>(plan_.work);
+  const AssetConversion conversion = convert_asset(source, asset.input, asset.output, options, files);
   if (!conversion.changed) return {};
   const ResultResources result_files(files, conversion);
-  const std::string bytes = bytes_of(conversion, source);
-  return gltf_looks({source, context, files}, {MemorySource(bytes), context, result_files}, source_, target_,
-                    conversion.materials, side, most);
+  const MemorySource bytes(bytes_of(conversion, source));
+  const auto reader = [&](const AssetFile& file, const std::filesystem::path& path) {
+    return is_gltf_name(path) ? gltf_reader(file) : mtl_reader(file, options.mtl_maker, is_obj_name(path));
+  };
+  const auto before = reader({source, context, files}, asset.input),
+             after = reader({bytes, context, result_files}, asset.output);
+  return asset_looks(*before, *after, source_, target_, conversion.materials, side, most);
 }
 
 }  // namespace remap

@@ -20,9 +20,6 @@ class JobLooks {
   const std::vector<std::string>& notes() const { return notes_; }
   // Returns the name above the copied look.
   std::string copied_title() const;
-  // Return the models that show the source and the target.
-  const std::string& source_model() const { return source_.name(); }
-  const std::string& target_model() const { return target_.name(); }
   // Returns the first `most` materials of a job, with at most about `side` texels a side. A set is one
   // material. Nothing is written. Throws kInput for files that cannot be read or shown.
   std::vector<MaterialLooks> of(const Job& job, int side, std::size_t most) const;

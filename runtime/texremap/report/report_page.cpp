@@ -126,8 +126,8 @@ std::string add_still(const DisplayedSphere& picture, PageImages& images) {
 }
 
 // Returns a look as the viewer shades it. The image of roughness holds the root of alpha.
-Json look_json(const std::string& title, const std::string& model, const TexturedBall& ball,
-               const DisplayedSphere& picture, const PictureError* error, PageImages& images) {
+Json look_json(const std::string& title, const TexturedBall& ball, const DisplayedSphere& picture,
+               const PictureError* error, PageImages& images) {
   std::vector<std::vector<float>> roughness(1), specular(3), diffuse(3);
   for (const BallTexel& texel : ball.texels) {
     roughness[0].push_back(static_cast<float>(std::sqrt(texel.alpha)));
@@ -138,7 +138,7 @@ Json look_json(const std::string& title, const std::string& model, const Texture
   }
   const float range = std::max(1.0f, largest_of(specular));
   Json json = {{"title", title},
-               {"model", model},
+               {"model", ball.name},
                {"brdf", glsl_name(ball.model.brdf)},
                {"schlick", ball.model.fresnel == Fresnel::kSchlick},
                {"range", range}};
@@ -220,18 +220,17 @@ std::string add_normals(const Image& normals, PageImages& images) {
   return add_image(pixels_of(stored, normals.width, Transfer::kLinear), images);
 }
 
-Json material_json(const MaterialLooks& looks, const JobLooks& models, const LitLooks& lit,
+Json material_json(const MaterialLooks& looks, const std::string& copied_title, const LitLooks& lit,
                    PageImages& images) {
   Json json = {{"name", looks.name}};
   json["looks"] = Json::list();
-  const auto add = [&](const std::string& title, const std::string& model, const TexturedBall& ball,
-                       const DisplayedSphere& picture, const PictureError* error) {
-    json["looks"].push_back(look_json(title, model, ball, picture, error, images));
+  const auto add = [&](const std::string& title, const TexturedBall& ball, const DisplayedSphere& picture,
+                       const PictureError* error) {
+    json["looks"].push_back(look_json(title, ball, picture, error, images));
   };
-  add("source", models.source_model(), looks.source, lit.pictures[0], nullptr);
-  if (looks.copied)
-    add(models.copied_title(), models.target_model(), *looks.copied, lit.pictures[1], &*lit.copied);
-  add("converted", models.target_model(), looks.converted, lit.pictures.back(), &lit.converted);
+  add("source", looks.source, lit.pictures[0], nullptr);
+  if (looks.copied) add(copied_title, *looks.copied, lit.pictures[1], &*lit.copied);
+  add("converted", looks.converted, lit.pictures.back(), &lit.converted);
   json["outside"] = looks.outside;
   if (!looks.normals.values.empty()) json["normal"] = add_normals(looks.normals, images);
   json["maps"] = {{"before", maps_json(looks.before, images)}, {"after", maps_json(looks.after, images)}};
@@ -329,7 +328,8 @@ class ReportPage {
       };
       for (const MaterialLooks& looks : looks_.of(job, side_, kMostMaterials))
         shown.materials.push_back(
-            material_json(looks, looks_, light(looks, render, kStillSide), shown.images).dump());
+            material_json(looks, looks_.copied_title(), light(looks, render, kStillSide), shown.images)
+                .dump());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
       shown.trouble = error.what();

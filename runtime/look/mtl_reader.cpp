@@ -1,0 +1,107 @@
+#include <array>
+
+#include "assets/gltf/gltf_workflow.hpp"
+#include "assets/maps/legacy_maps.hpp"
+#include "assets/maps/map_pixels.hpp"
+#include "assets/mtl/mtl_asset.hpp"
+#include "assets/mtl/mtl_libraries.hpp"
+#include "assets/mtl/mtl_material.hpp"
+#include "assets/obj/obj_mesh.hpp"
+#include "core/errors.hpp"
+#include "look/asset_looks.hpp"
+
+namespace remap {
+namespace {
+
+constexpr const char* kLegacyModel = "legacy/blinn-phong";
+
+// Returns the maps of the sources, whose textures have the size of `model`. Without a texture, it is null.
+ScaledMaps scaled(const std::map<Parameter, SourceParameter>& sources, const ImagePixels* model, int side) {
+  const int width = model == nullptr ? 1 : static_cast<int>(model->width),
+            height = model == nullptr ? 1 : static_cast<int>(model->height);
+  ScaledMaps maps = ScaledMaps::cells_of(width, height, side);
+  for (const auto& [parameter, source] : sources) add_rows(source, parameter, width, height, maps);
+  return maps;
+}
+
+class MtlReader final : public AssetReader {
+ public:
+  MtlReader(const AssetFile& file, std::optional<MtlMaker> maker, bool is_obj)
+      : libraries_(file.resources, maker) {
+    std::vector<std::string> ignored;
+    if (is_obj)
+      libraries_.read(obj_libraries(file.bytes, file.context), file.context, ignored);
+    else
+      own_ = std::make_unique<MtlLibrary>(mtl_text(file.bytes, file.context), "", file.resources, maker);
+  }
+
+  ScaledMaps maps(const AssetMaterial& material, int side) override {
+    const MtlLibraries::Entry entry = entry_of(material);
+    std::vector<std::string> ignored;
+    MtlSurface surface;
+    read_mtl_surface(entry.library->document, *entry.block, entry.library->maker, surface, ignored);
+    return surface.is_metal_rough ? metal_rough_maps_of(surface, entry.library->images, side)
+                                  : legacy_maps_of(surface, entry.library->images, side);
+  }
+
+  TexturedBall ball(const AssetMaterial&, const ShownModel& ggx, ScaledMaps maps) const override {
+    if (!maps.rows.contains(Parameter::kMetallic)) return ball_of(kLegacyModel, std::move(maps));
+    const auto plain = converter_of(GltfWorkflow::kMetalRough, "specular", AssetOptions());
+    return ggx.ball(std::nullopt, converted(*plain, std::move(maps)));
+  }
+
+ private:
+  MtlLibraries::Entry entry_of(const AssetMaterial& material) {
+    if (own_ != nullptr) return {own_.get(), &own_->document.materials().at(material.index)};
+    const auto entry = libraries_.find(material.name);
+    if (!entry)
+      throw input_error(material.title() + ": is in no MTL file that was found, so it is not shown");
+    return *entry;
+  }
+
+  static ScaledMaps legacy_maps_of(const MtlSurface& surface, MtlImages& images, int side) {
+    std::vector<std::string> ignored;
+    AssetOptions tolerant;
+    tolerant.enlarges = true;
+    const LegacyMaps loaded = load_maps(surface, reflection_of(surface, ignored), images, tolerant, ignored);
+    ImagePixels exponents;
+    const auto sources = sources_of(loaded, exponents);
+    const ImagePixels* model = nullptr;
+    for (const auto& pixels : {loaded.diffuse, loaded.specular, loaded.exponent})
+      if (pixels != nullptr) model = pixels.get();
+    ScaledMaps maps = scaled(sources, model, side);
+    maps.encoding = RoughnessEncoding::kExponent;
+    return maps;
+  }
+
+  static ScaledMaps metal_rough_maps_of(const MtlSurface& surface, MtlImages& images, int side) {
+    std::vector<std::string> ignored;
+    const MetalRoughFactors factors = metal_rough_of(surface, true);
+    std::vector<std::shared_ptr<const ImagePixels>> loaded;
+    const auto load = [&](const std::optional<MtlMap>& map) -> const ImagePixels* {
+      if (!map) return nullptr;
+      loaded.push_back(images.load(*map, ignored));
+      if (loaded.front()->width != loaded.back()->width || loaded.front()->height != loaded.back()->height)
+        throw input_error("its maps differ in size, so it is not shown");
+      return loaded.back().get();
+    };
+    std::map<Parameter, SourceParameter> sources;
+    sources[Parameter::kBaseColor] =
+        color_source(load(surface.diffuse_map), factors.base_color, "base color");
+    sources[Parameter::kMetallic] = value_source(load(surface.metallic_map), 0, factors.metallic, "metallic");
+    sources[Parameter::kRoughness] =
+        value_source(load(surface.roughness_map), 0, factors.roughness, "roughness");
+    return scaled(sources, loaded.empty() ? nullptr : loaded.front().get(), side);
+  }
+
+  MtlLibraries libraries_;           // of an OBJ file
+  std::unique_ptr<MtlLibrary> own_;  // of an MTL file
+};
+
+}  // namespace
+
+std::unique_ptr<AssetReader> mtl_reader(const AssetFile& file, std::optional<MtlMaker> maker, bool is_obj) {
+  return std::make_unique<MtlReader>(file, maker, is_obj);
+}
+
+}  // namespace remap
