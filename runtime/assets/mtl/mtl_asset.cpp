@@ -193,7 +193,7 @@ class MtlEditor {
         names_(resources != nullptr ? argument_prefix(resources->image_prefix()) : "") {}
 
   AssetConversion result() {
-    if (options_.extensions)
+    if (options_.writes_extensions())
       conversion_.warnings.push_back("MTL has no lines for --extensions (remove this option)");
     if (const std::string warning = maker_warning(maker_); !warning.empty())
       conversion_.warnings.push_back(warning);

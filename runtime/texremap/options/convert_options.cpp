@@ -229,9 +229,10 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->excludes(command.option("--fit"));
   options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
   command
-      .add_flag("--extensions", options.extensions,
-                "Use KHR_materials_specular and KHR_materials_ior: exact in viewers that read them, wrong in "
-                "others")
+      .add_option("--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
+                  "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
+                  "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
+                  "converted materials, others unchanged)")
       ->tag(kChangesResults | kNeedsAsset);
   command
       .add_option(
@@ -239,16 +240,10 @@ void add_source_options(Command& command, ConvertOptions& options) {
           "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
           "text of the format states")
       ->tag(kChangesResults | kNeedsAsset);
-  const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
-    command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
-  };
-  add_asset_flag(
-      "--fold-specular", options.fold_specular,
-      "Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them");
-  add_asset_flag("--keep-unused", options.keep_unused,
-                 "Keep images and textures of a glTF file that only its converted materials used");
-  add_asset_flag("--bake", options.bake,
-                 "Bring maps of a material whose KHR_texture_transform differ onto the grid of the first");
+  command
+      .add_flag("--keep-unused", options.keep_unused,
+                "Keep images and textures of a glTF file that only its converted materials used")
+      ->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
   command
       .add_option("--jpeg QUALITY", options.jpeg, jpeg_quality(),
                   "Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
@@ -297,7 +292,8 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_flag("--resample", options.resample,
-                "Enlarge smaller maps of a set to the largest size, bilinearly")
+                "Enlarge smaller maps of a set to the largest size, bilinearly; bring maps with another "
+                "KHR_texture_transform onto one grid")
       ->common()
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
@@ -357,7 +353,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
   command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
   command.retire("--profile",
-                 "was removed (for --profile extensions, use --extensions; core is the default)");
+                 "was removed (for --profile extensions, use --extensions write; core is the default)");
+  command.retire("--fold-specular", "is now called --extensions fold");
+  command.retire("--bake", "is now part of --resample (use --resample)");
   command.retire("--bad-texels", "is now called --nan");
   command.retire("--output-roughness-factor", "is now called --exponent-of-white");
   command.retire("--prior", "is now called --metallic-bias");

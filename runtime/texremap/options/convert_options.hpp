@@ -75,9 +75,9 @@ struct ConvertOptions {
   std::vector<std::filesystem::path> more_assets;
   bool assets = false;                // the folder holds assets, not texture sets
   std::filesystem::path asset_root;   // assets may name only files below this folder
-  bool extensions = false;            // glTF extensions instead of core
+  DielectricExtensions extensions = DielectricExtensions::kKept;
   std::optional<MtlMaker> mtl_maker;  // program that wrote the MTL files; if unset, detected
-  bool fold_specular = false, keep_unused = false, bake = false;
+  bool keep_unused = false;
   std::optional<int> jpeg;  // JPEG quality
   ModelName from, to;
   std::vector<std::string> via;

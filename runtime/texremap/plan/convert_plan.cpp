@@ -244,10 +244,7 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error("--to " + options.to.name +
                       ": the materials of an asset can become gltf or gltf-specgloss (use --to gltf)");
   if (options.output.empty()) throw usage_error("--output is required");
-  const bool is_core = options.to.name == "gltf" && !options.extensions;
-  if (options.fold_specular && !is_core)
-    throw usage_error("--fold-specular: needs --to gltf, without --extensions (remove this option)");
-  if (options.to.name != "gltf" && options.extensions)
+  if (options.to.name != "gltf" && options.extensions != DielectricExtensions::kKept)
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }
 
@@ -257,6 +254,8 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
                           [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
     return;
   refuse(options, kNeedsGltf, ": applies to glTF files only (remove this option)");
+  if (options.extensions == DielectricExtensions::kFolded)
+    throw usage_error("--extensions fold: applies to glTF files only (remove this option)");
   if (options.to.name != "gltf")
     throw usage_error("--to " + options.to.name +
                       ": materials of MTL and OBJ files can only become gltf (use --to gltf)");
@@ -265,10 +264,8 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
 AssetOptions asset_options(const ConvertOptions& options) {
   AssetOptions asset{options.extensions, options.prior, options.instructions, options.resample};
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
-  asset.folds_specular = options.fold_specular;
   asset.mtl_maker = options.mtl_maker;
   asset.compacts = !options.keep_unused;
-  asset.bakes = options.bake;
   asset.jpeg_quality = options.jpeg;
   asset.png_level = options.compression;
   return asset;

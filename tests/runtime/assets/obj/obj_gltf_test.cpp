@@ -50,7 +50,7 @@ MadeScene made(const std::string& obj, PlainResources resources = {}, const std:
   if (!mtl.empty()) resources.files["a.mtl"] = mtl;
   MadeScene scene;
   AssetOptions options;
-  options.extensions = extensions;
+  if (extensions) options.extensions = DielectricExtensions::kWritten;
   scene.conversion = gltf_of_obj(MemorySource(obj), "file.obj", options, resources);
   for (const AssetPiece& piece : scene.conversion.pieces) scene.bytes += piece.bytes;
   scene.container = read_container(MemorySource(scene.bytes), "made");
