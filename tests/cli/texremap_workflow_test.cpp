@@ -288,7 +288,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_THAT(session.texremap(whole + "-o none").last_error(),
              Contains("would contain integers, but its roughness is an exponent"));
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
-  REQUIRE(session.texremap(whole + "--exponent-of-white 1000 -o whole").exit_code == 0);
+  REQUIRE(session.texremap(whole + "--output-encoding exponent=1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
   for (int i = 0; i < kWorkflowSize; ++i)
     CHECK(stored.at(i, i, 0) * 1000.0f ==
@@ -298,8 +298,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
       "--diffuse whole/diffuse.png ";
   CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--factor roughness=NUMBER sets"));
   CHECK(session.texremap(back + "--factor roughness=1000 -o back").exit_code == 0);
-  CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
-             Contains("applies only to exponents"));
+  CHECK_THAT(session.texremap(command + "--to unity --output-encoding exponent=128 -o none").last_error(),
+             Contains("--output-encoding exponent cannot be used with --layout unity"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

@@ -101,7 +101,7 @@ describe('the viewer', { skip }, () => {
         const ends = ['--from', 'mitsuba/ggx', '--to', `mitsuba/${model}`];
         const target = model === 'ggx' ? ['--from', 'mitsuba/ward', '--to', 'mitsuba/ggx'] : ends;
         execFileSync(remapc, ['preview', set, ...target, '--no-labels', '--resolution', String(SIDE), '--directions', '6000', '--force', '-o', sheet], { stdio: 'ignore' });
-        texremap(set, ...target, '-o', join(folder, 'out'), '--dry-run', '--force', '--report', html, ...(model === 'phong' ? ['--exponent-of-white', '10000'] : []));
+        texremap(set, ...target, '-o', join(folder, 'out'), '--dry-run', '--force', '--report', html, ...(model === 'phong' ? ['--output-encoding', 'exponent=10000'] : []));
         const report = dataOf(html);
         const look = report.materials[0].looks.at(-1);
         const columns = report.materials[0].looks.length;

@@ -87,14 +87,20 @@ Reader<int> jpeg_quality() {
           {}};
 }
 
-Reader<double> positive_number() {
-  return {[](const std::string& option, const std::string& word) {
-            const auto number = parse_number(word);
-            if (!number || !(*number > 0.0))
-              throw usage_error(option + ": invalid value '" + word + "' (use a number above 0)");
-            return *number;
+// Reads an encoding, or `exponent=NUMBER`.
+Reader<WrittenRoughness> written_roughness() {
+  const Reader<RoughnessEncoding> name = one_of(kRoughnessEncodings, "encoding");
+  return {[read = name.read](const std::string& option, const std::string& word) {
+            const std::size_t sign = word.find('=');
+            WrittenRoughness written{read(option, word.substr(0, sign)), std::nullopt};
+            if (sign == std::string::npos) return written;
+            written.white = parse_number(word.substr(sign + 1));
+            if (written.encoding != RoughnessEncoding::kExponent || !(written.white.value_or(0.0) > 0.0))
+              throw usage_error(option + ": invalid value '" + word +
+                                "' (only exponent has a number, which is above 0: exponent=1000)");
+            return written;
           },
-          {}};
+          name.choices};
 }
 
 Reader<Layout> layout() {
@@ -357,7 +363,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--fold-specular", "is now called --extensions fold");
   command.retire("--bake", "is now part of --resample (use --resample)");
   command.retire("--bad-texels", "is now called --nan");
-  command.retire("--output-roughness-factor", "is now called --exponent-of-white");
+  for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
+    command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
   command.retire("--prior", "is now called --metallic-bias");
   command.retire("--copy-others",
                  "is no longer needed: texremap copies all maps of a set (remove this option; "
@@ -428,14 +435,10 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: encodings and factors");
   command
       .add_option(
-          "--output-encoding NAME", options.output_encoding, one_of(kRoughnessEncodings, "encoding"),
+          "--output-encoding NAME", options.output_encoding, written_roughness(),
           "What the roughness results hold (default: as the inputs where that is known, else what the "
-          "target model takes; a file named glossiness contains glossiness)")
-      ->tag(kChangesResults);
-  command
-      .add_option("--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
-                  "Exponent that 1, or white, means in the result: 1000 as in MTL files, 128 as in OpenGL, "
-                  "100 for percent")
+          "target model takes; a file named glossiness contains glossiness). exponent=1000: white means an "
+          "exponent of 1000, as in MTL files; OpenGL has 128")
       ->tag(kChangesResults);
   command
       .add_option("--factor NAME=NUMBERS", options.factors, parameter_word(parse_factors),

@@ -57,6 +57,12 @@ struct ParameterWord {
   Value value;
 };
 
+// A WrittenRoughness is what roughness results contain.
+struct WrittenRoughness {
+  RoughnessEncoding encoding;
+  std::optional<double> white;  // the exponent that a stored value of 1 means, if known
+};
+
 // An F0Choice is the F0 of dielectrics, or where it comes from.
 enum class F0Source { kModel, kMaps };
 using F0Choice = std::variant<F0Source, double>;  // by default: the F0 of the model
@@ -110,8 +116,7 @@ struct ConvertOptions {
   std::string format;
   std::optional<PixelType> type;
   std::optional<int> compression;  // compression level
-  std::optional<RoughnessEncoding> output_encoding;
-  std::optional<double> output_roughness_factor;  // the exponent that a stored value of 1 means, if known
+  std::optional<WrittenRoughness> output_encoding;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none

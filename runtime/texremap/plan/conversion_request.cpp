@@ -238,12 +238,12 @@ namespace {
 
 // Refuses an encoding of the results that their names contradict, or that no result uses.
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
-  const auto& asked = options.output_encoding;
-  if (!asked) return;
+  if (!options.output_encoding) return;
+  const RoughnessEncoding asked = options.output_encoding->encoding;
   const std::optional<RoughnessEncoding> held = choice.layout.width();
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
-  if (held && (*asked == kGlossiness) != (*held == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
+  if (held && (asked == kGlossiness) != (*held == kGlossiness))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(asked)) +
                                        " cannot be used with --layout " + choice.layout.name +
                                        ", which stores " + std::string(encoding_name(*held)) +
                                        " (use --layout separate)");
@@ -320,8 +320,9 @@ void apply(const TranslationEffect& effect, TargetChoice& choice) {
 
 TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow) {
   TargetChoice choice;
-  choice.treatment = {options.output_encoding,
-                      static_cast<float>(options.output_roughness_factor.value_or(1.0)),
+  const auto& written = options.output_encoding;
+  choice.treatment = {written ? std::optional(written->encoding) : std::nullopt,
+                      static_cast<float>(written ? written->white.value_or(1.0) : 1.0),
                       options.bad_texels,
                       options.dither,
                       options.json,
@@ -355,7 +356,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
 
 void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
   if (is_given && width != RoughnessEncoding::kExponent)
-    throw usage_error("--exponent-of-white: applies only to exponents, but the results contain " +
+    throw usage_error("--output-encoding: a number applies only to exponents, but the results contain " +
                       std::string(encoding_name(width)) + " (remove this option)");
 }
 

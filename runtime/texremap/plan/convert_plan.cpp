@@ -176,7 +176,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   TextureSetRequest request = set_request(options, workflow);
   SetPlan& sets = plan.work.emplace<SetPlan>(
       SetPlan{options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
-              std::move(targets), options.dielectric_f0, options.output_roughness_factor.has_value()});
+              std::move(targets), options.dielectric_f0, options.output_encoding && options.output_encoding->white});
   const BuiltConversion& chosen = sets.chosen;
   const auto name = [](const ModelName& typed, const ModelSide& side) {
     return typed.alias != nullptr ? std::string(typed.word()) : side.model;
