@@ -362,6 +362,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
   command.retire("--fold-specular", "is now called --extensions fold");
   command.retire("--bake", "is now part of --resample (use --resample)");
+  command.retire("--histograms", "is now part of --verbose (use --json --verbose)");
   command.retire("--bad-texels", "is now called --nan");
   for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
     command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
@@ -375,24 +376,21 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  Option* json = command
-                     .add_flag("--json", options.json,
-                               "Print a report as JSON; of several sets or assets a line for each")
-                     ->common()
-                     ->tag(kOfPlan | kForAssets);
+  command
+      .add_flag("--json", options.json, "Print a report as JSON; of several sets or assets a line for each")
+      ->common()
+      ->tag(kOfPlan | kForAssets);
   command
       .add_option("--report FILE", options.report,
                   "Also write an HTML file that shows the first materials before and after")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
-      ->tag(kNeedsFiles)
-      ->needs(json);
   Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")
                       ->tag(kForAssets);
   command
       .add_flag("--verbose", options.verbose,
-                "Print every warning, the converter, and measures of each set that pictures do not show")
+                "Print every warning, the converter, and measures of each set that pictures do not show; with "
+                "--json also histograms")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }

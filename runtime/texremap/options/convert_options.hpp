@@ -124,7 +124,7 @@ struct ConvertOptions {
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool only_converted = false, force = false, dry_run = false;
-  bool json = false, histograms = false, quiet = false, verbose = false;
+  bool json = false, quiet = false, verbose = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;

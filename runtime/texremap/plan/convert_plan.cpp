@@ -341,7 +341,7 @@ ConvertPlan resolve(ConvertOptions options) {
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();
   plan.json = options.json;
-  plan.histograms = options.histograms;
+  plan.histograms = options.verbose;
   plan.quiet = options.quiet;
   plan.verbose = options.verbose;
   return plan;
