@@ -170,7 +170,7 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
   write_grey(session, "mask.exr", [](int x, int, int) { return x < 20 ? 1.0f : 0.0f; });
-  require_success(convert(session, specular_words("specular", "metallic") + "--metal-mask mask.exr"));
+  require_success(convert(session, specular_words("specular", "metallic") + "--input metal_mask=mask.exr"));
   const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(3, 3, 0) > 0.65f);
   CHECK(metal.at(30, 3, 0) < 0.01f);

@@ -68,6 +68,17 @@ Reader<ParameterWord<Value>> parameter_word(Value (*read)(std::string_view optio
           {}};
 }
 
+// Reads `NAME=MAP`. Glossiness is not one of the names, because it would be read as roughness.
+Reader<ParameterWord<MapSource>> input_word() {
+  Reader<ParameterWord<MapSource>> reader = parameter_word(parameter_source);
+  reader.read = [read = reader.read](const std::string& option, const std::string& word) {
+    if (word.starts_with("glossiness="))
+      throw usage_error(option + " glossiness: has its own option (use --glossiness MAP)");
+    return read(option, word);
+  };
+  return reader;
+}
+
 Reader<int> compression_level() {
   return {[](const std::string& option, const std::string& word) {
             if (word.size() != 1 || word[0] < '1' || word[0] > '9')
@@ -279,10 +290,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--input NAME=MAP", options.inputs, parameter_word(parameter_source),
-                  "Another input of a whole material, such as coat_weight=coat.png or sheen_color=1,0.9,0.8; "
-                  "repeatable (for --from or --to openpbr and standard-surface)")
-      ->tag(kChangesResults | kNeedsTranslation);
+      .add_option("--input NAME=MAP", options.inputs, input_word(),
+                  "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
+                  "openpbr and standard-surface), or metal_mask=mask.png, which decides between metallic values "
+                  "that look alike; repeatable")
+      ->tag(kChangesResults);
   command
       .add_option(
           "--roughness-encoding NAME", options.roughness_encoding, map_encoding(),
@@ -363,6 +375,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--fold-specular", "is now called --extensions fold");
   command.retire("--bake", "is now part of --resample (use --resample)");
   command.retire("--histograms", "is now part of --verbose (use --json --verbose)");
+  command.retire("--metal-mask", "is now part of --input (for example: --input metal_mask=mask.png)");
   command.retire("--bad-texels", "is now called --nan");
   for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
     command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
@@ -423,10 +436,6 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
                   "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
                   "from 0 to 1")
       ->tag(kForAssets | kChangesResults | kNeedsMetallic);
-  command
-      .add_option("--metal-mask MAP", options.maps[Parameter::kMetalMask], map_source(),
-                  "Map of the metals, which decides between metallic values that look alike")
-      ->tag(kChangesResults | kNeedsMetallic);
 }
 
 void add_rare_options(Command& command, ConvertOptions& options) {
@@ -529,7 +538,11 @@ int ConvertOptions::threads() const {
 void note_given(const Command& command, ConvertOptions& options) {
   options.given = command.given();
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
-  for (const auto& [parameter, source] : options.inputs) options.maps[parameter] = source;
+  for (const auto& [parameter, source] : options.inputs) {
+    std::optional<MapSource>& map = options.maps[parameter];
+    if (map) throw usage_error("--input " + plain_name(parameter) + ": is given twice (remove one of the two)");
+    map = source;
+  }
 }
 
 std::vector<float> ConvertOptions::factors_of(Parameter parameter) const {

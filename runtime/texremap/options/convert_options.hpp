@@ -39,7 +39,6 @@ enum : OptionTags {
   kNeedsTree = 1u << 11u,          // if the run converts assets, needs a folder of assets
   kIsPath = 1u << 12u,             // path of a file or folder, relative to the working folder
   kOfPlan = 1u << 13u,             // texremap plan sets this option itself
-  kNeedsTranslation = 1u << 14u,   // needs surfaces as source and target
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;

@@ -90,10 +90,16 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
     if (!workflow.has_source(parameter))
       throw usage_error(
           option + " " + plain_name(parameter) +
-          ": has no effect, because the source material has no such input (remove this option)");
+          ": has no effect, because this conversion reads no such input (remove this option)");
   };
   for (const auto& word : options.factors) refuse_input("--factor", word.parameter);
-  for (const auto& word : options.inputs) refuse_input("--input", word.parameter);
+  for (const auto& [parameter, source] : options.inputs) {
+    if (is_input(parameter) && !workflow.translation)
+      throw usage_error(parameter_option(parameter) +
+                        ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
+                        "blender, gltf or usd (for other models, convert to openpbr first)");
+    if (parameter != Parameter::kMetalMask || !workflow.finds_metallic()) refuse_input("--input", parameter);
+  }
 }
 
 // Refuses options of folders if there is only one set, and maps that cannot be used with a folder.

@@ -32,11 +32,6 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
     refuse(options, kNeedsWorkflow | kNeedsMetallic,
            " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
            "--workflows)");
-  if (!choice.translation)
-    refuse(
-        options, kNeedsTranslation,
-        ": --from or --to must be openpbr or standard-surface, and the other option one of these, blender, "
-        "gltf or usd (for other models, convert to openpbr first)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because every input is translated (remove this option)");
