@@ -25,9 +25,6 @@ export type Measure = 'residual' | 'metallicUncertainty' | 'issues';
 
 /** How a converter is found. */
 export interface ConverterOptions {
-  /** A BRDF model with a workflow is a layer of that kind over the model. */
-  sourceWorkflow?: 'specular' | 'metallic';
-  targetWorkflow?: 'specular' | 'metallic';
   /** Models that the path visits, in this order. */
   via?: string[];
   /** What a diffuse color means where the names leave it open. */

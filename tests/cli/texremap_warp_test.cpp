@@ -94,7 +94,7 @@ TEST_CASE("texremap warps: a set converted to the source of the warp needs no --
   require_success(convert("metal", "--from metallic --to specular", "plain"));
   require_success(convert("plain", by_warp, "plain_out"));
   require_success(convert("plain_out", "--from specular --to metallic", "metal_again"));
-  require_success(convert("metal_again", "--fit stony.json --from-workflow metallic", "again_out"));
+  require_success(convert("metal_again", "--fit stony.json --from metallic:mitsuba/ggx", "again_out"));
 
   // glTF's diffuse is scaled by the light that specular does not reflect, so it is a different material.
   require_success(convert("metal", "--from metallic --to gltf-specgloss", "scaled"));

@@ -106,9 +106,9 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
 TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in one pass") {
   const Session session;
   write_specular(session);
-  Words words = specular_words("mitsuba/ward", "gltf");
+  Words words = specular_words("specular:mitsuba/ward", "gltf");
   const ProcessResult result =
-      require_success(convert(session, words + "--from-workflow specular --layout orm"));
+      require_success(convert(session, words + "--layout orm"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
@@ -222,7 +222,7 @@ TEST_CASE(
     write_grey(session, "in/wood/" + set + "metallic.png", metallic, OIIO::TypeUInt8);
     write_grey(session, "in/wood/" + set + "roughness.png", roughness, OIIO::TypeUInt8);
   }
-  require_success(convert(session, "in --recursive --from gltf --to mitsuba/ward --to-workflow metallic"));
+  require_success(convert(session, "in --recursive --from gltf --to metallic:mitsuba/ward"));
 }
 
 TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate file") {

@@ -376,6 +376,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--bake", "is now part of --resample (use --resample)");
   command.retire("--histograms", "is now part of --verbose (use --json --verbose)");
   command.retire("--metal-mask", "is now part of --input (for example: --input metal_mask=mask.png)");
+  command.retire("--from-workflow", "is now part of --from (for example: --from specular:mitsuba/ward)");
+  command.retire("--to-workflow", "is now part of --to (for example: --to specular:mitsuba/ward)");
   command.retire("--bad-texels", "is now called --nan");
   for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
     command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
@@ -410,15 +412,6 @@ void add_output_options(Command& command, ConvertOptions& options) {
 
 void add_workflow_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: whole materials (metallic and specular workflows)");
-  command
-      .add_option("--from-workflow NAME", options.from_workflow, one_of(kWorkflowKinds, "workflow"),
-                  "Workflow around the source model: specular (diffuse, specular) or metallic (base color, "
-                  "metallic)")
-      ->tag(kChangesResults | kNotWithDiffuseWarp);
-  command
-      .add_option("--to-workflow NAME", options.to_workflow, one_of(kWorkflowKinds, "workflow"),
-                  "Workflow around the target model")
-      ->tag(kChangesResults | kNotWithWarp);
   command
       .add_option("--dielectric-f0 VALUE", options.dielectric_f0, f0_choice(),
                   "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the "
@@ -569,6 +562,11 @@ std::string result_options_text(const ConvertOptions& options) {
   for (const GivenOption& option : options.given)
     if ((option.tags & kChangesResults) != 0)
       add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
+  const auto add_workflow = [&](const std::string& option, const ModelName& model) {
+    if (model.workflow) add(option + " " + std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" + model.name);
+  };
+  add_workflow("--from", options.from);
+  add_workflow("--to", options.to);
   if (options.engine != nullptr) add("--layout " + std::string(options.engine->name));
   if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
   return text;

@@ -104,7 +104,6 @@ struct ConvertOptions {
   std::filesystem::path names;
   bool resample = false;
 
-  std::optional<WorkflowKind> from_workflow, to_workflow;
   F0Choice dielectric_f0;
   std::optional<DiffuseConvention> diffuse_convention;
   double prior = kCleanPrior;

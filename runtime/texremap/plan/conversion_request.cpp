@@ -195,8 +195,8 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Conver
     if (map == nullptr || !map->channels.empty())
       throw Error(ErrorKind::kUsage,
                   parameter_option(parameter) +
-                      ": cannot be converted without a workflow (give a file to copy it, or "
-                      "set --from-workflow)");
+                      ": cannot be converted without a workflow (give a file to copy it, or use --from " +
+                      (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name + ")");
     files.push_back({map->file, std::string(parameter_name(parameter)), ""});
   }
   return files;
