@@ -14,7 +14,7 @@ const COMMAND_OPTIONS = {
   extensions: '--extensions',
   metallicBias: '--metallic-bias',
   resample: '--resample',
-  jpeg: '--jpeg',
+  jpeg: '--compression=jpeg',
 };
 const OWN_OPTIONS = ['codec', 'program'];
 const FLAGS = ['resample'];

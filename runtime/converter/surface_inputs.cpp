@@ -198,8 +198,8 @@ std::optional<Parameter> parameter_named(std::string_view name) {
 }
 
 std::vector<std::string> parameter_names() {
-  std::vector<std::string> names = {"roughness", "glossiness", "specular",
-                                    "diffuse",   "base_color", "metallic", "metal_mask"};
+  std::vector<std::string> names = {"roughness",  "glossiness", "specular",  "diffuse",
+                                    "base_color", "metallic",   "metal_mask"};
   for (const SurfaceInput& input : tables().named) names.emplace_back(input.name);
   for (const SameInput& same : kSame)
     if (parameter_named(same.name)) names.emplace_back(same.name);

@@ -69,8 +69,9 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
-    throw usage_error(word + " " + std::string(name_of(kWorkflowKinds, *kind)) + ":" + name + ": the model " + name +
-                      " has the " + std::string(kind_name(end.model->end)) + " workflow (use " + name + ")");
+    throw usage_error(word + " " + std::string(name_of(kWorkflowKinds, *kind)) + ":" + name + ": the model " +
+                      name + " has the " + std::string(kind_name(end.model->end)) + " workflow (use " + name +
+                      ")");
   return end;
 }
 

@@ -75,7 +75,7 @@ TEST_CASE(
   if (is_grey)
     session.make("wood/oak_specular.exr", test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                  [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
-  require_success(session.texremap("convert wood --fit stony.json --instructions " + set + " -o out"));
+  require_success(session.texremap_with(set, "convert wood --fit stony.json -o out"));
   session.check_warped("out/oak_", oak_texels(session));
 }
 

@@ -75,9 +75,9 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const std::string threads = GENERATE("1", "3");
   const std::string set = GENERATE("baseline", "avx2"), bias = GENERATE("clean", "noisy");
   if (set == "avx2" && !has_avx2()) return;
-  const ProcessResult result = require_success(
-      convert(session, specular_words("specular", "metallic") + "--threads " + threads + " --instructions " +
-                           set + " --metallic-bias " + bias + " --diagnose checks --json"));
+  const ProcessResult result = require_success(session.texremap_with(
+      set, Words("convert") + specular_words("specular", "metallic") + "--threads " + threads +
+               " --metallic-bias " + bias + " --diagnose checks --json -o out"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
                   residual = session.image("checks/residual.exr"),
@@ -107,8 +107,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   const Session session;
   write_specular(session);
   Words words = specular_words("specular:mitsuba/ward", "gltf");
-  const ProcessResult result =
-      require_success(convert(session, words + "--layout orm"));
+  const ProcessResult result = require_success(convert(session, words + "--layout orm"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");

@@ -50,7 +50,7 @@ JS
 readonly directions=(
   "--to gltf"
   "--to gltf --extensions write"
-  "--to gltf --keep-unused --resample --jpeg 90"
+  "--to gltf --keep-unused --resample --compression jpeg=90"
   "--to gltf --extensions fold"
   "--to gltf --extensions fold --keep-unused --resample"
   "--to gltf-specgloss"

@@ -183,7 +183,7 @@ for (const [words, options] of [
   [['--to', 'gltf', '--from', 'mitsuba/ward'], { from: 'mitsuba/ward', to: 'gltf' }],
   [['--to', 'gltf-specgloss', '--extensions', 'write'], { to: 'gltf-specgloss', extensions: 'write' }],
   [['--to', 'gltf-specgloss', '--extensions', 'fold'], { to: 'gltf-specgloss', extensions: 'fold' }],
-  [['--to', 'gltf', '--jpeg', '0'], { to: 'gltf', jpeg: 0 }],
+  [['--to', 'gltf', '--compression', 'jpeg=0'], { to: 'gltf', jpeg: 0 }],
 ])
   test(`refused as by the command: ${JSON.stringify(options)}`, async () => {
     const [own, expected] = await refusals(words, options);

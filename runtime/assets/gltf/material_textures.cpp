@@ -117,8 +117,8 @@ void MaterialTextures::require_one_grid(const UsedTexture& first, const UsedText
                       " (bake them onto one in a modeller" + otherwise);
   if (first.info.transform != other.info.transform && !options_.resamples)
     throw input_error("its " + own_name + " and " + other_name +
-                      " textures have different KHR_texture_transform, and both" + decided + " (use --resample" +
-                      otherwise);
+                      " textures have different KHR_texture_transform, and both" + decided +
+                      " (use --resample" + otherwise);
   if (!options_.resamples && first.info.transform == other.info.transform &&
       !is_same_size(first.pixels(), other.pixels()))
     throw input_error("its " + own_name + " image has " + size_text(first.pixels()) + " texels, its " +

@@ -25,8 +25,8 @@ struct ModelName {
   // Returns the alias if there is one, otherwise the name.
   std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
-// Returns the meaning of `word`, such as `mitsuba/ggx` or `metallic:mitsuba/ggx`. Aliases and workflows ignore
-// case. Other words mean themselves.
+// Returns the meaning of `word`, such as `mitsuba/ggx` or `metallic:mitsuba/ggx`. Aliases and workflows
+// ignore case. Other words mean themselves.
 ModelName model_named(const std::string& word);
 
 // These words name the parts of a request in messages.

@@ -79,23 +79,21 @@ Reader<ParameterWord<MapSource>> input_word() {
   return reader;
 }
 
-Reader<int> compression_level() {
-  return {[](const std::string& option, const std::string& word) {
-            if (word.size() != 1 || word[0] < '1' || word[0] > '9')
-              throw usage_error(option + ": invalid compression level '" + word + "' (use 1 to 9)");
-            return word[0] - '0';
-          },
-          {}};
-}
-
-Reader<int> jpeg_quality() {
-  return {[](const std::string& option, const std::string& word) {
-            const auto quality = parse_number(word);
-            if (!quality || *quality != std::floor(*quality) || *quality < 1.0 || *quality > 100.0)
-              throw usage_error(option + ": invalid JPEG quality '" + word + "' (use 1 to 100)");
-            return static_cast<int>(*quality);
-          },
-          {}};
+// Reads a level, `jpeg=QUALITY` or both, with a comma between.
+Reader<Compression> compression() {
+  return {
+      [](const std::string& option, const std::string& words) {
+        Compression compression;
+        for (const std::string& word : parts_between(words, ',')) {
+          const bool is_jpeg = word.starts_with("jpeg=");
+          const auto number = parse_number(is_jpeg ? word.substr(5) : word);
+          if (!number || *number != std::floor(*number) || *number < 1.0 || *number > (is_jpeg ? 100.0 : 9.0))
+            throw usage_error(option + ": invalid value '" + word + "' (use 1 to 9, or jpeg=1 to jpeg=100)");
+          (is_jpeg ? compression.jpeg_quality : compression.level) = static_cast<int>(*number);
+        }
+        return compression;
+      },
+      {}};
 }
 
 // Reads an encoding, or `exponent=NUMBER`.
@@ -119,13 +117,6 @@ Reader<Layout> layout() {
   for (const NamedLayout& layout : named_layouts()) known.emplace_back(layout.name);
   return {[](const std::string& option, const std::string& word) { return layout_from(option, word); },
           known};
-}
-
-Reader<InstructionSet> instructions() {
-  return {[](const std::string& option, const std::string& word) {
-            return instruction_set_from_name(option, word);
-          },
-          {}};
 }
 
 // Reads the number from 0 to `highest` in `text`. `allowed` describes the accepted words in messages.
@@ -193,9 +184,11 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
   command
-      .add_option("--from MODEL", options.from, model_name(),
-                  "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
-                  "from the maps)")
+      .add_option(
+          "--from MODEL", options.from, model_name(),
+          "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
+          "from the maps). Program that wrote the MTL files: blender, blender-2.8, nvdiffrec; or mtl, which "
+          "reads them by the specification (default: detected from the file)")
       ->common()
       ->tag(kForAssets);
   command
@@ -246,25 +239,16 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->excludes(command.option("--fit"));
   options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
   command
-      .add_option("--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
-                  "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
-                  "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
-                  "converted materials, others unchanged)")
-      ->tag(kChangesResults | kNeedsAsset);
-  command
       .add_option(
-          "--mtl-from MAKER", options.mtl_maker, one_of(kMtlMakers, "maker"),
-          "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
-          "text of the format states")
+          "--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
+          "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
+          "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
+          "converted materials, others unchanged)")
       ->tag(kChangesResults | kNeedsAsset);
   command
       .add_flag("--keep-unused", options.keep_unused,
                 "Keep images and textures of a glTF file that only its converted materials used")
       ->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
-  command
-      .add_option("--jpeg QUALITY", options.jpeg, jpeg_quality(),
-                  "Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
-      ->tag(kNeedsGltf | kChangesResults | kNeedsAsset);
 }
 
 // The footer of the command explains the value MAP.
@@ -290,10 +274,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--input NAME=MAP", options.inputs, input_word(),
-                  "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
-                  "openpbr and standard-surface), or metal_mask=mask.png, which decides between metallic values "
-                  "that look alike; repeatable")
+      .add_option(
+          "--input NAME=MAP", options.inputs, input_word(),
+          "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
+          "openpbr and standard-surface), or metal_mask=mask.png, which decides between metallic values "
+          "that look alike; repeatable")
       ->tag(kChangesResults);
   command
       .add_option(
@@ -346,9 +331,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option(
-          "--compression LEVEL", options.compression, compression_level(),
+          "--compression LEVEL", options.compression, compression(),
           "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in assets)")
+          "PNG files, 3 in assets). In glTF files also jpeg=QUALITY or 9,jpeg=90: writes new maps of color "
+          "as "
+          "JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),
@@ -378,6 +365,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--metal-mask", "is now part of --input (for example: --input metal_mask=mask.png)");
   command.retire("--from-workflow", "is now part of --from (for example: --from specular:mitsuba/ward)");
   command.retire("--to-workflow", "is now part of --to (for example: --to specular:mitsuba/ward)");
+  command.retire("--jpeg", "is now part of --compression (for example: --compression jpeg=90)");
+  command.retire(
+      "--instructions",
+      "is now an environment variable (for example: REMAP_INSTRUCTIONS=baseline texremap convert ...)");
+  command.retire("--mtl-from", "is now part of --from (for example: --from blender)");
   command.retire("--bad-texels", "is now called --nan");
   for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
     command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
@@ -403,9 +395,10 @@ void add_output_options(Command& command, ConvertOptions& options) {
   Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")
                       ->tag(kForAssets);
   command
-      .add_flag("--verbose", options.verbose,
-                "Print every warning, the converter, and measures of each set that pictures do not show; with "
-                "--json also histograms")
+      .add_flag(
+          "--verbose", options.verbose,
+          "Print every warning, the converter, and measures of each set that pictures do not show; with "
+          "--json also histograms")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }
@@ -466,10 +459,6 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       ->default_text("keep")
       ->tag(kChangesResults);
   command.option_group("Rare: speed");
-  command
-      .add_option("--instructions NAME", options.instructions, instructions(),
-                  "baseline, avx2 or avx512; results are identical (default: the widest of this processor)")
-      ->tag(kForAssets);
   command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
       ->range(0, 1024)
       ->tag(kOfPlan | kForAssets);
@@ -530,10 +519,14 @@ int ConvertOptions::threads() const {
 
 void note_given(const Command& command, ConvertOptions& options) {
   options.given = command.given();
+  constexpr const char* kVariable = "REMAP_INSTRUCTIONS";
+  if (const char* name = std::getenv(kVariable))
+    options.instructions = instruction_set_from_name(kVariable, name);
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
   for (const auto& [parameter, source] : options.inputs) {
     std::optional<MapSource>& map = options.maps[parameter];
-    if (map) throw usage_error("--input " + plain_name(parameter) + ": is given twice (remove one of the two)");
+    if (map)
+      throw usage_error("--input " + plain_name(parameter) + ": is given twice (remove one of the two)");
     map = source;
   }
 }
@@ -551,6 +544,10 @@ void add_convert_options(Command& command, ConvertOptions& options) {
   add_rare_options(command, options);
 }
 
+std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options) {
+  return value_named(kMtlMakers, options.from.word());
+}
+
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
   for (const GivenOption& option : options.given)
     if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
@@ -563,12 +560,14 @@ std::string result_options_text(const ConvertOptions& options) {
     if ((option.tags & kChangesResults) != 0)
       add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
   const auto add_workflow = [&](const std::string& option, const ModelName& model) {
-    if (model.workflow) add(option + " " + std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" + model.name);
+    if (model.workflow)
+      add(option + " " + std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" + model.name);
   };
   add_workflow("--from", options.from);
   add_workflow("--to", options.to);
   if (options.engine != nullptr) add("--layout " + std::string(options.engine->name));
-  if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
+  if (mtl_maker_of(options) || (!options.only_converted && normals_of(options.from)))
+    add("--from " + std::string(options.from.word()));
   return text;
 }
 

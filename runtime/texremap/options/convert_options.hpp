@@ -73,17 +73,19 @@ Reader<ModelName> model_name();
 std::uint64_t memory_limit(int megabytes);
 Option* add_memory_option(Command& command, int& megabytes);
 
+struct Compression {
+  std::optional<int> level, jpeg_quality;
+};
+
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
   std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
   std::vector<std::filesystem::path> more_assets;
-  bool assets = false;                // the folder holds assets, not texture sets
-  std::filesystem::path asset_root;   // assets may name only files below this folder
+  bool assets = false;               // the folder holds assets, not texture sets
+  std::filesystem::path asset_root;  // assets may name only files below this folder
   DielectricExtensions extensions = DielectricExtensions::kKept;
-  std::optional<MtlMaker> mtl_maker;  // program that wrote the MTL files; if unset, detected
   bool keep_unused = false;
-  std::optional<int> jpeg;  // JPEG quality
   ModelName from, to;
   std::vector<std::string> via;
   std::string fit;
@@ -113,7 +115,7 @@ struct ConvertOptions {
   const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
   std::optional<PixelType> type;
-  std::optional<int> compression;  // compression level
+  Compression compression;
   std::optional<WrittenRoughness> output_encoding;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
@@ -147,6 +149,9 @@ void choose_files(ConvertOptions& options);
 
 // Returns the direction of green in normal maps of a source or target, or nothing if it is not documented.
 std::optional<NormalGreen> normals_of(const ModelName& model);
+
+// Returns the program that wrote the MTL files, by `--from`. If unset, it is detected.
+std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options);
 
 // Throws kUsage if an option with `tag` was given, with the option and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);

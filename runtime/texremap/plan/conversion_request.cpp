@@ -88,16 +88,16 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
   }
   const auto refuse_input = [&](const std::string& option, Parameter parameter) {
     if (!workflow.has_source(parameter))
-      throw usage_error(
-          option + " " + plain_name(parameter) +
-          ": has no effect, because this conversion reads no such input (remove this option)");
+      throw usage_error(option + " " + plain_name(parameter) +
+                        ": has no effect, because this conversion reads no such input (remove this option)");
   };
   for (const auto& word : options.factors) refuse_input("--factor", word.parameter);
   for (const auto& [parameter, source] : options.inputs) {
     if (is_input(parameter) && !workflow.translation)
-      throw usage_error(parameter_option(parameter) +
-                        ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
-                        "blender, gltf or usd (for other models, convert to openpbr first)");
+      throw usage_error(
+          parameter_option(parameter) +
+          ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
+          "blender, gltf or usd (for other models, convert to openpbr first)");
     if (parameter != Parameter::kMetalMask || !workflow.finds_metallic()) refuse_input("--input", parameter);
   }
 }
@@ -196,7 +196,8 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Conver
       throw Error(ErrorKind::kUsage,
                   parameter_option(parameter) +
                       ": cannot be converted without a workflow (give a file to copy it, or use --from " +
-                      (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name + ")");
+                      (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name +
+                      ")");
     files.push_back({map->file, std::string(parameter_name(parameter)), ""});
   }
   return files;
@@ -341,7 +342,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
                       : as_inputs();
   choice.extension = options.format;
   choice.type = options.type;
-  choice.compression_level = options.compression;
+  choice.compression_level = options.compression.level;
   choice.diagnosis_folder = options.diagnose;
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};

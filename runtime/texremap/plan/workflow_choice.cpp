@@ -8,12 +8,7 @@ namespace {
 
 // Returns the words of the command line.
 ConversionWords option_words() {
-  return {"--from",
-          "--to",
-          "--via",
-          "--dielectric-f0",
-          "--diffuse-convention",
-          "texremap list"};
+  return {"--from", "--to", "--via", "--dielectric-f0", "--diffuse-convention", "texremap list"};
 }
 
 void require_estimable(const ConversionChoice& choice) {
@@ -38,7 +33,8 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
     refuse(options, kNeedsMetallic,
            ": has no effect, because source and target have the same material model (remove this option)");
   if (!choice.is_to_metallic())
-    refuse(options, kNeedsMetallic, " requires a metallic target (choose another --to, such as gltf or metallic:mitsuba/ggx)");
+    refuse(options, kNeedsMetallic,
+           " requires a metallic target (choose another --to, such as gltf or metallic:mitsuba/ggx)");
 }
 
 }  // namespace

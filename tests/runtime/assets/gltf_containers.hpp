@@ -14,7 +14,8 @@
 
 namespace remap {
 
-inline constexpr AssetOptions kCoreOptions = {DielectricExtensions::kKept, kCleanPrior, InstructionSet::kBaseline, false};
+inline constexpr AssetOptions kCoreOptions = {DielectricExtensions::kKept, kCleanPrior,
+                                              InstructionSet::kBaseline, false};
 inline constexpr AssetOptions kExactOptions = {true, kCleanPrior, InstructionSet::kBaseline, false};
 
 inline ImagePixels random_pixels(std::size_t channels, std::uint32_t seed,
