@@ -194,7 +194,7 @@ class MtlEditor {
 
   AssetConversion result() {
     if (options_.writes_extensions())
-      conversion_.warnings.push_back("MTL has no lines for --extensions (remove this option)");
+      conversion_.warnings.push_back("MTL has no lines for --extensions write (remove this option)");
     if (const std::string warning = maker_warning(maker_); !warning.empty())
       conversion_.warnings.push_back(warning);
     conversion_.resources = named_images(document_, images_);
@@ -226,10 +226,9 @@ class MtlEditor {
       report.becomes = becomes_text_of(result, surface);
       if (result.roughness_map.empty() && result.metallic_map.empty() && result.base_file.empty() &&
           !result.keeps_map)
-        report.factors = {
-            {"base_color", {result.factors.base_color.begin(), result.factors.base_color.end()}},
-            {"metallic", {result.factors.metallic}},
-            {"roughness", {result.factors.roughness}}};
+        report.factors = {{"base_color", {result.factors.base_color.begin(), result.factors.base_color.end()}},
+                          {"metallic", {result.factors.metallic}},
+                          {"roughness", {result.factors.roughness}}};
       report.state = MaterialState::kConverted;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
@@ -301,11 +300,9 @@ class MtlEditor {
     if (!result.base_file.empty())
       text += "map";
     else
-      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") +
-              color_text(result.factors.base_color);
+      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") + color_text(result.factors.base_color);
     text += ", metallic " + (result.metallic_map.empty() ? float_text_of(result.factors.metallic) : "map");
-    return text + ", roughness " +
-           (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "map");
+    return text + ", roughness " + (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "map");
   }
 
   const MtlDocument& document_;

@@ -311,6 +311,29 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFolder);
 }
 
+constexpr std::array<std::pair<const char*, const char*>, 20> kNewNames = {{
+    {"--preset", "--to (for the packed files of glTF: --to gltf --layout gltf)"},
+    {"--fold-specular", "--extensions fold"},
+    {"--bake", "--resample"},
+    {"--histograms", "--verbose, with --json"},
+    {"--metal-mask", "--input (for example: --input metal_mask=mask.png)"},
+    {"--from-workflow", "--from (for example: --from specular:mitsuba/ward)"},
+    {"--to-workflow", "--to (for example: --to specular:mitsuba/ward)"},
+    {"--mtl-from", "--from (for example: --from blender)"},
+    {"--jpeg", "--compression (for example: --compression jpeg=90)"},
+    {"--instructions", "REMAP_INSTRUCTIONS, an environment variable"},
+    {"--bad-texels", "--nan"},
+    {"--prior", "--metallic-bias"},
+    {"--output-roughness-factor", "--output-encoding (for example: --output-encoding exponent=1000)"},
+    {"--exponent-of-white", "--output-encoding (for example: --output-encoding exponent=1000)"},
+    {"--roughness-factor", "--factor (for example: --factor roughness=0.5)"},
+    {"--glossiness-factor", "--factor (for example: --factor glossiness=0.5)"},
+    {"--specular-factor", "--factor (for example: --factor specular=0.5)"},
+    {"--diffuse-factor", "--factor (for example: --factor diffuse=0.5)"},
+    {"--base-color-factor", "--factor (for example: --factor base_color=0.5)"},
+    {"--metallic-factor", "--factor (for example: --factor metallic=0.5)"},
+}};
+
 void add_output_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: output");
   command
@@ -356,24 +379,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "--allow-skips",
       "is no longer needed: texremap skips sets that have nothing to convert (remove this option)");
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
-  command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
-  command.retire("--fold-specular", "is now called --extensions fold");
-  command.retire("--bake", "is now part of --resample (use --resample)");
-  command.retire("--histograms", "is now part of --verbose (use --json --verbose)");
-  command.retire("--metal-mask", "is now part of --input (for example: --input metal_mask=mask.png)");
-  command.retire("--from-workflow", "is now part of --from (for example: --from specular:mitsuba/ward)");
-  command.retire("--to-workflow", "is now part of --to (for example: --to specular:mitsuba/ward)");
-  command.retire("--jpeg", "is now part of --compression (for example: --compression jpeg=90)");
-  command.retire(
-      "--instructions",
-      "is now an environment variable (for example: REMAP_INSTRUCTIONS=baseline texremap convert ...)");
-  command.retire("--mtl-from", "is now part of --from (for example: --from blender)");
-  command.retire("--bad-texels", "is now called --nan");
-  for (const char* name : {"--output-roughness-factor", "--exponent-of-white"})
-    command.retire(name, "is now part of --output-encoding (for example: --output-encoding exponent=1000)");
-  command.retire("--prior", "is now called --metallic-bias");
+  for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
   command.retire("--copy-others",
                  "is no longer needed: texremap copies all maps of a set (remove this option; "
                  "--only-converted writes only converted maps)");
@@ -428,7 +436,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: encodings and factors");
   command
       .add_option(
-          "--output-encoding NAME", options.output_encoding, written_roughness(),
+          "--output-encoding NAME", options.output_roughness, written_roughness(),
           "What the roughness results hold (default: as the inputs where that is known, else what the "
           "target model takes; a file named glossiness contains glossiness). exponent=1000: white means an "
           "exponent of 1000, as in MTL files; OpenGL has 128")
@@ -438,10 +446,6 @@ void add_rare_options(Command& command, ConvertOptions& options) {
                   "Multiply this input: roughness or glossiness before it is decoded, colors in linear light "
                   "by one number or three; repeatable")
       ->tag(kChangesResults | kNotWithDiffuseWarp);
-  for (const char* name :
-       {"--roughness", "--glossiness", "--specular", "--diffuse", "--base-color", "--metallic"})
-    command.retire(std::string(name) + "-factor",
-                   "is now called --factor (for example: --factor roughness=0.5)");
   command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
       ->tag(kChangesResults | kNeedsFiles);
 

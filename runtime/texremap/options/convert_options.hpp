@@ -58,8 +58,8 @@ struct ParameterWord {
 
 // A WrittenRoughness is what roughness results contain.
 struct WrittenRoughness {
-  RoughnessEncoding encoding;
-  std::optional<double> white;  // the exponent that a stored value of 1 means, if known
+  std::optional<RoughnessEncoding> encoding;  // by default, see --output-encoding
+  std::optional<double> white;                // the exponent that a stored value of 1 means, if known
 };
 
 // An F0Choice is the F0 of dielectrics, or where it comes from.
@@ -116,7 +116,7 @@ struct ConvertOptions {
   std::string format;
   std::optional<PixelType> type;
   Compression compression;
-  std::optional<WrittenRoughness> output_encoding;
+  WrittenRoughness output_roughness;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none

@@ -245,12 +245,12 @@ namespace {
 
 // Refuses an encoding of the results that their names contradict, or that no result uses.
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
-  if (!options.output_encoding) return;
-  const RoughnessEncoding asked = options.output_encoding->encoding;
+  const auto& asked = options.output_roughness.encoding;
+  if (!asked) return;
   const std::optional<RoughnessEncoding> held = choice.layout.width();
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
-  if (held && (asked == kGlossiness) != (*held == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(asked)) +
+  if (held && (*asked == kGlossiness) != (*held == kGlossiness))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
                                        " cannot be used with --layout " + choice.layout.name +
                                        ", which stores " + std::string(encoding_name(*held)) +
                                        " (use --layout separate)");
@@ -327,9 +327,8 @@ void apply(const TranslationEffect& effect, TargetChoice& choice) {
 
 TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow) {
   TargetChoice choice;
-  const auto& written = options.output_encoding;
-  choice.treatment = {written ? std::optional(written->encoding) : std::nullopt,
-                      static_cast<float>(written ? written->white.value_or(1.0) : 1.0),
+  choice.treatment = {options.output_roughness.encoding,
+                      static_cast<float>(options.output_roughness.white.value_or(1.0)),
                       options.bad_texels,
                       options.dither,
                       options.json,

@@ -175,9 +175,9 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);
   TargetChoice targets = target_choice(options, workflow);
   TextureSetRequest request = set_request(options, workflow);
-  SetPlan& sets = plan.work.emplace<SetPlan>(SetPlan{
-      options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
-      std::move(targets), options.dielectric_f0, options.output_encoding && options.output_encoding->white});
+  SetPlan& sets = plan.work.emplace<SetPlan>(
+      SetPlan{options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
+              std::move(targets), options.dielectric_f0, options.output_roughness.white.has_value()});
   const BuiltConversion& chosen = sets.chosen;
   const auto name = [](const ModelName& typed, const ModelSide& side) {
     return typed.alias != nullptr ? std::string(typed.word()) : side.model;
