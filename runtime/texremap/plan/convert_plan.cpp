@@ -242,7 +242,7 @@ void require_asset_options(const ConvertOptions& options) {
       !mtl_maker_of(options))
     throw usage_error(
         "--from " + options.from.name +
-        ": texremap reads the material model from the file (remove this option; MTL files have " +
+        ": texremap reads the material model from the file (remove this option; for MTL files, use " +
         joined(names_of(kMtlMakers), ", ") + ")");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +

@@ -24,7 +24,7 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
     refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
   else
     refuse(options, kNeedsWorkflow | kNeedsMetallic,
-           " requires a workflow (put it before the model, such as --from specular:mitsuba/ward, or choose a "
+           " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or choose a "
            "model of texremap list --workflows)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,

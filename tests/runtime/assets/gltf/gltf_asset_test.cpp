@@ -35,7 +35,8 @@ std::string material_of(const std::string& text, const AssetOptions& options = {
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
 }
 
-constexpr AssetOptions kExact = {true, kCleanPrior, InstructionSet::kBaseline, false};
+constexpr AssetOptions kExact = {DielectricExtensions::kWritten, kCleanPrior, InstructionSet::kBaseline,
+                                 false};
 
 }  // namespace
 
