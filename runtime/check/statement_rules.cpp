@@ -156,7 +156,7 @@ void ignored_by_reader(const CheckedMaterial& material, const GltfConsumer* read
       findings.push_back({rule.name, Confidence::kCertain, material.name, "", what,
                           can_fold(material, extension)
                               ? asset_fix(material, "fold it into base color, metallic and roughness",
-                                          {"--extensions", "fold"})
+                                          {"--extensions fold"})
                               : Fix("express it by base color, metallic and roughness, or remove " +
                                     std::string(extension))});
   }
