@@ -173,6 +173,18 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(3, 3, 0) > 0.65f);
   CHECK(metal.at(30, 3, 0) < 0.01f);
+
+  // In a folder, each set has its own mask.
+  std::filesystem::create_directories(session.path("in"));
+  constexpr std::array<std::array<const char*, 2>, 4> kNames = {{{"d.exr", "a_diffuse.exr"},
+                                                                 {"s.exr", "a_specular.exr"},
+                                                                 {"r.exr", "a_roughness.exr"},
+                                                                 {"mask.exr", "a_mine.exr"}}};
+  for (const auto& [from, to] : kNames)
+    std::filesystem::rename(session.path(from), session.path(std::string("in/") + to));
+  require_success(
+      session.texremap("convert in --from specular --to metallic --input metal_mask=*_mine.exr -o folder"));
+  CHECK(session.image("folder/a_metallic.exr").at(3, 3, 0) == metal.at(3, 3, 0));
 }
 
 TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {

@@ -166,7 +166,13 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
 }  // namespace
 
 Reader<ModelName> model_name() {
-  return {[](const std::string&, const std::string& word) { return model_named(word); }, {}};
+  return {[](const std::string& option, const std::string& word) {
+            ModelName model = model_named(word);
+            if (model.workflow && model.empty())
+              throw usage_error(option + ": no model in '" + word + "' (write " + word + "mitsuba/ggx)");
+            return model;
+          },
+          {}};
 }
 
 namespace {
