@@ -158,7 +158,10 @@ export function convert(
   request: { source: string; target: string } & ConverterOptions & SourceMaps & MapOptions,
 ): TargetMaps;
 
-/** A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models. */
+/**
+ * A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models.
+ * `specular:mitsuba/ward` and `metallic:mitsuba/ward` are layers over a BRDF model.
+ */
 export function converter(source: string, target: string, options?: ConverterOptions): Converter;
 
 /** The converter in the text of a fit file of remapc. */
