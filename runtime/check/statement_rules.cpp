@@ -153,12 +153,12 @@ void ignored_by_reader(const CheckedMaterial& material, const GltfConsumer* read
                           what + ", which shows the material by its metallic values instead",
                           asset_fix(material, "convert the material to the metallic workflow", {})});
     else
-      findings.push_back({rule.name, Confidence::kCertain, material.name, "", what,
-                          can_fold(material, extension)
-                              ? asset_fix(material, "fold it into base color, metallic and roughness",
-                                          {"--extensions fold"})
-                              : Fix("express it by base color, metallic and roughness, or remove " +
-                                    std::string(extension))});
+      findings.push_back(
+          {rule.name, Confidence::kCertain, material.name, "", what,
+           can_fold(material, extension)
+               ? asset_fix(material, "fold it into base color, metallic and roughness", {"--extensions fold"})
+               : Fix("express it by base color, metallic and roughness, or remove " +
+                     std::string(extension))});
   }
 }
 

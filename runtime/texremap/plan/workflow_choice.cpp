@@ -23,9 +23,10 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
   if (choice.is_material())
     refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
   else
-    refuse(options, kNeedsWorkflow | kNeedsMetallic,
-           " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or choose a "
-           "model of texremap list --workflows)");
+    refuse(
+        options, kNeedsWorkflow | kNeedsMetallic,
+        " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or choose a "
+        "model of texremap list --workflows)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because every input is translated (remove this option)");
