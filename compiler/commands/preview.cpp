@@ -208,7 +208,7 @@ void run(const Command& given, const PreviewCommand& command) {
   for (const char* option : {"--renderer-before", "--renderer-after"})
     if (given.count(option) > 0)
       throw usage_error(std::string(option) +
-                        ": applies to texture sets and glTF files only (remove this option)");
+                        ": applies to texture sets and assets only (remove this option)");
   const Fit fit = find_fit(command.subject, command.fit_folder);
   PreviewOptions options = with_lights(given, command, fit);
   const Preview preview = [&] {
@@ -286,7 +286,7 @@ void add_preview_command(Command& app) {
           "--pixel-samples", options.options.samples_per_axis,
           "N x N samples per pixel; under an environment, only at the edge of the shape; 1: the pixel center")
       ->range(1, 16);
-  command->option_group("Real renderers (texture sets and glTF files)");
+  command->option_group("Real renderers (texture sets and assets)");
   command->add_option(
       "--renderer-before NAME", options.renderer_before,
       "Renderer that shows the source: cycles-5, mitsuba3, threejs-r187, or a worker with maps "

@@ -28,16 +28,15 @@ export interface ImageCodec {
 export interface MaterialOptions {
   from?: 'gltf-specgloss' | 'gltf';
   to: 'gltf' | 'gltf-specgloss';
-  /** Uses KHR_materials_specular and KHR_materials_ior: exact in viewers that read them, wrong in others. */
-  extensions?: boolean;
+  /**
+   * KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong in others.
+   * fold: replaces them by core, for viewers that do not read them.
+   */
+  extensions?: 'write' | 'fold';
   /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
   metallicBias?: number;
-  /** KHR_materials_specular and KHR_materials_ior go into core, too. */
-  foldSpecular?: boolean;
-  /** Enlarges images of a material that are smaller than another one. */
+  /** Enlarges smaller images of a material, and brings maps with another KHR_texture_transform onto one grid. */
   resample?: boolean;
-  /** Resamples maps whose KHR_texture_transform differ onto one grid. */
-  bake?: boolean;
   /** New images of color become JPEG of this quality, 1 to 100. */
   jpeg?: number;
   /** By default PNG alone in node, others where sharp is installed; in a browser PNG, and reading of JPEG and WebP. */

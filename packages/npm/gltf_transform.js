@@ -13,13 +13,11 @@ const COMMAND_OPTIONS = {
   to: '--to',
   extensions: '--extensions',
   metallicBias: '--metallic-bias',
-  foldSpecular: '--fold-specular',
   resample: '--resample',
-  bake: '--bake',
-  jpeg: '--jpeg',
+  jpeg: '--compression=jpeg',
 };
 const OWN_OPTIONS = ['codec', 'program'];
-const FLAGS = ['extensions', 'foldSpecular', 'resample', 'bake'];
+const FLAGS = ['resample'];
 
 const FILE = 'document.gltf', OUT = 'out';
 

@@ -25,9 +25,6 @@ export type Measure = 'residual' | 'metallicUncertainty' | 'issues';
 
 /** How a converter is found. */
 export interface ConverterOptions {
-  /** A BRDF model with a workflow is a layer of that kind over the model. */
-  sourceWorkflow?: 'specular' | 'metallic';
-  targetWorkflow?: 'specular' | 'metallic';
   /** Models that the path visits, in this order. */
   via?: string[];
   /** What a diffuse color means where the names leave it open. */
@@ -161,7 +158,10 @@ export function convert(
   request: { source: string; target: string } & ConverterOptions & SourceMaps & MapOptions,
 ): TargetMaps;
 
-/** A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models. */
+/**
+ * A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models.
+ * `specular:mitsuba/ward` and `metallic:mitsuba/ward` are layers over a BRDF model.
+ */
 export function converter(source: string, target: string, options?: ConverterOptions): Converter;
 
 /** The converter in the text of a fit file of remapc. */

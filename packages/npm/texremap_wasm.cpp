@@ -69,15 +69,11 @@ ConversionRequest request_of(const Field& field) {
   ConversionRequest request;
   request.source = model_named(field["source"].text());
   request.target = model_named(field["target"].text());
-  request.source_workflow = named_if(field, "sourceWorkflow", kWorkflowKinds);
-  request.target_workflow = named_if(field, "targetWorkflow", kWorkflowKinds);
   if (field.contains("via"))
     request.via = field["via"].list(0, [](const Field& model) { return model.text(); });
   request.diffuse_convention = named_if(field, "diffuseConvention", kDiffuseConventions);
   if (field.contains("dielectricF0")) request.dielectric_f0 = field["dielectricF0"].number();
   if (field.contains("metallicBias")) request.prior = field["metallicBias"].number();
-  request.words.source_workflow = "sourceWorkflow";
-  request.words.target_workflow = "targetWorkflow";
   request.words.dielectric_f0 = "dielectricF0";
   request.words.diffuse_convention = "diffuseConvention";
   return request;

@@ -25,7 +25,7 @@ bool is_of_dielectrics(std::string_view extension) {
   return std::ranges::find(kNames, extension) != kNames.end();
 }
 
-// Returns true if `texremap convert --fold-specular` can fold the extension. The index of refraction of a
+// Returns true if `texremap convert --extensions fold` can fold the extension. The index of refraction of a
 // volume must stay.
 bool can_fold(const CheckedMaterial& material, std::string_view extension) {
   return (extension == kSpecularExtension || extension == kIorExtension) && !material.gltf.has_volume;
@@ -44,9 +44,9 @@ Fix asset_fix(const CheckedMaterial& material, const std::string& words, std::ve
   };
   if (!all_agree([](const auto& a, const auto& b) { return a.tex_coord == b.tex_coord; }))
     return words + " (first bring its textures to one set of texture coordinates)";
-  if (!all_agree([](const auto& a, const auto& b) { return a.transform == b.transform; }))
-    options.emplace_back("--bake");
-  if (!all_agree([&](const auto& a, const auto& b) { return material.same_size(a, b); }))
+  if (!all_agree([&](const auto& a, const auto& b) {
+        return a.transform == b.transform && material.same_size(a, b);
+      }))
     options.emplace_back("--resample");
   Fix fix = words;
   fix.asset = material.path.string();
@@ -156,7 +156,7 @@ void ignored_by_reader(const CheckedMaterial& material, const GltfConsumer* read
       findings.push_back(
           {rule.name, Confidence::kCertain, material.name, "", what,
            can_fold(material, extension)
-               ? asset_fix(material, "fold it into base color, metallic and roughness", {"--fold-specular"})
+               ? asset_fix(material, "fold it into base color, metallic and roughness", {"--extensions fold"})
                : Fix("express it by base color, metallic and roughness, or remove " +
                      std::string(extension))});
   }

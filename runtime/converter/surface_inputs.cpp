@@ -187,9 +187,9 @@ std::vector<Parameter> parameters_of(Surface surface) {
 }
 
 std::optional<Parameter> parameter_named(std::string_view name) {
-  constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse};
-  for (const Parameter color : kColors)
-    if (parameter_name(color) == name) return color;
+  constexpr std::array kOfWorkflows = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kMetalMask};
+  for (const Parameter parameter : kOfWorkflows)
+    if (parameter_name(parameter) == name) return parameter;
   if (name == "glossiness") return Parameter::kRoughness;
   const std::string_view common = common_name(name, 1);
   if (const auto shared = value_named(kShared, common)) return shared;
@@ -198,8 +198,8 @@ std::optional<Parameter> parameter_named(std::string_view name) {
 }
 
 std::vector<std::string> parameter_names() {
-  std::vector<std::string> names = {"roughness", "glossiness", "specular",
-                                    "diffuse",   "base_color", "metallic"};
+  std::vector<std::string> names = {"roughness",  "glossiness", "specular",  "diffuse",
+                                    "base_color", "metallic",   "metal_mask"};
   for (const SurfaceInput& input : tables().named) names.emplace_back(input.name);
   for (const SameInput& same : kSame)
     if (parameter_named(same.name)) names.emplace_back(same.name);
@@ -220,7 +220,7 @@ std::string plain_name(Parameter parameter) {
 }
 
 std::string parameter_option(Parameter parameter) {
-  if (is_input(parameter)) return "--input " + plain_name(parameter);
+  if (is_input(parameter) || parameter == Parameter::kMetalMask) return "--input " + plain_name(parameter);
   std::string option = "--" + plain_name(parameter);
   std::replace(option.begin(), option.end(), '_', '-');
   return option;

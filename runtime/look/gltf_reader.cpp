@@ -103,7 +103,7 @@ class GltfReader final : public AssetReader {
   // Maps of different sizes and transforms are shown as well, although a conversion may refuse them.
   static AssetOptions tolerant() {
     AssetOptions options;
-    options.enlarges = options.bakes = true;
+    options.resamples = true;
     return options;
   }
 

@@ -62,7 +62,7 @@ class MtlReader final : public AssetReader {
   static ScaledMaps legacy_maps_of(const MtlSurface& surface, MtlImages& images, int side) {
     std::vector<std::string> ignored;
     AssetOptions tolerant;
-    tolerant.enlarges = true;
+    tolerant.resamples = true;
     const LegacyMaps loaded = load_maps(surface, reflection_of(surface, ignored), images, tolerant, ignored);
     ImagePixels exponents;
     const auto sources = sources_of(loaded, exponents);

@@ -69,9 +69,9 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
                    const ConverterGraph& graph) {
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
-    throw usage_error(word + ": the model " + name + " has the " + std::string(kind_name(end.model->end)) +
-                      " workflow, not " + std::string(name_of(kWorkflowKinds, *kind)) +
-                      " (remove this option)");
+    throw usage_error(word + " " + std::string(name_of(kWorkflowKinds, *kind)) + ":" + name + ": the model " +
+                      name + " has the " + std::string(kind_name(end.model->end)) + " workflow (use " + name +
+                      ")");
   return end;
 }
 
@@ -86,7 +86,7 @@ std::string target_named(const ConversionRequest& request, const NamedEnd& from)
   const std::string source = from.workflow().brdf;
   if (graph.has_model(to) || graph.models_of(to).empty()) return to;
   if (renderer_of(source) == to) {
-    if (from.has_workflow() || request.target_workflow) return source;
+    if (from.has_workflow() || request.target.workflow) return source;
     throw usage_error(request.words.target + " " + to + ": the source " + source +
                       " is already a model of this renderer (choose one of its other models)");
   }
@@ -194,6 +194,12 @@ void note_alias(const ModelName& given, ConversionChoice& choice) {
 }  // namespace
 
 ModelName model_named(const std::string& word) {
+  if (const std::size_t sign = word.find(':'); sign != std::string::npos)
+    if (const auto kind = value_named(kWorkflowKinds, word.substr(0, sign))) {
+      ModelName model = model_named(word.substr(sign + 1));
+      model.workflow = kind;
+      return model;
+    }
   if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
   std::string small = word;
   for (char& letter : small)
@@ -222,10 +228,10 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
     if (!request.source.empty()) require_known(words.source, request.source.name, graph, words.all_names);
     if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
   }
-  const NamedEnd from = named_end(request.source.name, request.source_workflow, words.source_workflow, graph);
+  const NamedEnd from = named_end(request.source.name, request.source.workflow, words.source, graph);
   if (!from.name.empty()) require_via(request, graph, from.workflow().brdf, "");
   const std::string target = target_named(request, from);
-  const NamedEnd to = named_end(target, request.target_workflow, words.target_workflow, graph);
+  const NamedEnd to = named_end(target, request.target.workflow, words.target, graph);
   if (!from.name.empty() && !target.empty())
     require_via(request, graph, from.workflow().brdf, to.workflow().brdf);
   ConversionChoice choice;

@@ -431,8 +431,8 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
           throw usage_error(
               map.path.string() +
               ": would contain integers, but its roughness is an exponent "
-              "(--exponent-of-white sets the exponent that white means: 1000 in MTL files, 128 in "
-              "OpenGL, 100 for percent; or --format exr)");
+              "(write --output-encoding exponent=1000 if white means an exponent of 1000, as in MTL files; "
+              "OpenGL has 128; or --format exr)");
     }
 }
 

@@ -411,7 +411,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
   };
   const std::vector<Refusal> refusals = {
       {"--resample", asset, asset + " --resample", [=](S s) { specgloss(s, 24, ""); }},
-      {"--bake", asset, asset + " --bake",
+      {"different KHR_texture_transform", asset, asset + " --resample",
        [=](S s) { specgloss(s, kAdviceSide, R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})"); }},
       {"--force", asset, asset + " --force",
        [=](S s) {
@@ -423,7 +423,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
          s.map("x.png", color);
          s.gltf(plain_asset, {"../x.png"});
        }},
-      {"without --extensions", asset + " --extensions", asset,
+      {"without --extensions", asset + " --extensions write", asset,
        [](S s) {
          s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{},"KHR_materials_specular":{}})");
        }},

@@ -165,7 +165,7 @@ TEST_CASE("reports: 09 the command for an asset converts it") {
   CHECK(advice(R"("KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.6})", "threejs") ==
         "texremap convert in/a.gltf --to gltf -o fixed");
   CHECK(advice(R"("KHR_materials_specular":{"specularColorFactor":[1.5,1.5,1.5]})", "godot") ==
-        "texremap convert in/a.gltf --to gltf --fold-specular -o fixed");
+        "texremap convert in/a.gltf --to gltf --extensions fold -o fixed");
 }
 
 TEST_CASE("reports: 12 channels of one packed map are no duplicates") {

@@ -32,6 +32,9 @@ class Session : public CommandFolder {
   ProcessResult texremap(const Words& words, const ProcessLimits& limits = {}) const {
     return run(REMAP_TEXREMAP + words, limits);
   }
+  ProcessResult texremap_with(const std::string& instructions, const Words& words) const {
+    return run(Words("/usr/bin/env REMAP_INSTRUCTIONS=" + instructions) + REMAP_TEXREMAP + words);
+  }
   TestImage image(const std::string& name) const { return read_image(path(name)); }
   void make(const std::string& name, const OIIO::ImageSpec& spec, const TexelFunction& texel) const {
     write_image(path(name), spec, texel);

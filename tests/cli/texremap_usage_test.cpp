@@ -101,7 +101,7 @@ TEST_CASE("texremap: every instruction set writes the same files", "[slow]") {
   for (const InstructionSet set : instruction_sets()) {
     const std::string name(instruction_set_name(set));
     const ProcessResult result =
-        session.convert("r.exr", "s.exr", "--instructions " + name + " --force --json");
+        session.texremap_with(name, kConversion + " --roughness r.exr --specular s.exr --force --json");
     REQUIRE(result.exit_code == 0);
     CHECK(nlohmann::json::parse(result.output)["instructions"] == name);
     written.push_back(session.content("out/r.exr") + session.content("out/s.exr"));

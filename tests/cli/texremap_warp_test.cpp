@@ -75,7 +75,7 @@ TEST_CASE(
   if (is_grey)
     session.make("wood/oak_specular.exr", test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                  [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
-  require_success(session.texremap("convert wood --fit stony.json --instructions " + set + " -o out"));
+  require_success(session.texremap_with(set, "convert wood --fit stony.json -o out"));
   session.check_warped("out/oak_", oak_texels(session));
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("texremap warps: a set converted to the source of the warp needs no --
   require_success(convert("metal", "--from metallic --to specular", "plain"));
   require_success(convert("plain", by_warp, "plain_out"));
   require_success(convert("plain_out", "--from specular --to metallic", "metal_again"));
-  require_success(convert("metal_again", "--fit stony.json --from-workflow metallic", "again_out"));
+  require_success(convert("metal_again", "--fit stony.json --from metallic:mitsuba/ggx", "again_out"));
 
   // glTF's diffuse is scaled by the light that specular does not reflect, so it is a different material.
   require_success(convert("metal", "--from metallic --to gltf-specgloss", "scaled"));

@@ -75,9 +75,9 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const std::string threads = GENERATE("1", "3");
   const std::string set = GENERATE("baseline", "avx2"), bias = GENERATE("clean", "noisy");
   if (set == "avx2" && !has_avx2()) return;
-  const ProcessResult result = require_success(
-      convert(session, specular_words("specular", "metallic") + "--threads " + threads + " --instructions " +
-                           set + " --metallic-bias " + bias + " --diagnose checks --json"));
+  const ProcessResult result = require_success(session.texremap_with(
+      set, Words("convert") + specular_words("specular", "metallic") + "--threads " + threads +
+               " --metallic-bias " + bias + " --diagnose checks --json -o out"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), metal = session.image("out/metallic.exr"),
                   residual = session.image("checks/residual.exr"),
@@ -106,9 +106,8 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
 TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in one pass") {
   const Session session;
   write_specular(session);
-  Words words = specular_words("mitsuba/ward", "gltf");
-  const ProcessResult result =
-      require_success(convert(session, words + "--from-workflow specular --layout orm"));
+  Words words = specular_words("specular:mitsuba/ward", "gltf");
+  const ProcessResult result = require_success(convert(session, words + "--layout orm"));
   const TestImage d = session.image("d.exr"), s = session.image("s.exr"), r = session.image("r.exr"),
                   base = session.image("out/base_color.exr"), orm = session.image("out/orm.exr");
   const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
@@ -170,10 +169,22 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
   write_grey(session, "mask.exr", [](int x, int, int) { return x < 20 ? 1.0f : 0.0f; });
-  require_success(convert(session, specular_words("specular", "metallic") + "--metal-mask mask.exr"));
+  require_success(convert(session, specular_words("specular", "metallic") + "--input metal_mask=mask.exr"));
   const TestImage metal = session.image("out/metallic.exr");
   CHECK(metal.at(3, 3, 0) > 0.65f);
   CHECK(metal.at(30, 3, 0) < 0.01f);
+
+  // In a folder, each set has its own mask.
+  std::filesystem::create_directories(session.path("in"));
+  constexpr std::array<std::array<const char*, 2>, 4> kNames = {{{"d.exr", "a_diffuse.exr"},
+                                                                 {"s.exr", "a_specular.exr"},
+                                                                 {"r.exr", "a_roughness.exr"},
+                                                                 {"mask.exr", "a_mine.exr"}}};
+  for (const auto& [from, to] : kNames)
+    std::filesystem::rename(session.path(from), session.path(std::string("in/") + to));
+  require_success(
+      session.texremap("convert in --from specular --to metallic --input metal_mask=*_mine.exr -o folder"));
+  CHECK(session.image("folder/a_metallic.exr").at(3, 3, 0) == metal.at(3, 3, 0));
 }
 
 TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {
@@ -222,7 +233,7 @@ TEST_CASE(
     write_grey(session, "in/wood/" + set + "metallic.png", metallic, OIIO::TypeUInt8);
     write_grey(session, "in/wood/" + set + "roughness.png", roughness, OIIO::TypeUInt8);
   }
-  require_success(convert(session, "in --recursive --from gltf --to mitsuba/ward --to-workflow metallic"));
+  require_success(convert(session, "in --recursive --from gltf --to metallic:mitsuba/ward"));
 }
 
 TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate file") {
@@ -288,7 +299,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
   CHECK_THAT(session.texremap(whole + "-o none").last_error(),
              Contains("would contain integers, but its roughness is an exponent"));
   CHECK_FALSE(std::filesystem::exists(session.path("none")));
-  REQUIRE(session.texremap(whole + "--exponent-of-white 1000 -o whole").exit_code == 0);
+  REQUIRE(session.texremap(whole + "--output-encoding exponent=1000 -o whole").exit_code == 0);
   const TestImage stored = session.image("whole/exponent.png");
   for (int i = 0; i < kWorkflowSize; ++i)
     CHECK(stored.at(i, i, 0) * 1000.0f ==
@@ -298,8 +309,8 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
       "--diffuse whole/diffuse.png ";
   CHECK_THAT(session.texremap(back + "-o back").last_error(), Contains("--factor roughness=NUMBER sets"));
   CHECK(session.texremap(back + "--factor roughness=1000 -o back").exit_code == 0);
-  CHECK_THAT(session.texremap(command + "--to unity --exponent-of-white 128 -o none").last_error(),
-             Contains("applies only to exponents"));
+  CHECK_THAT(session.texremap(command + "--to unity --output-encoding exponent=128 -o none").last_error(),
+             Contains("--output-encoding exponent cannot be used with --layout unity"));
 }
 
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {

@@ -45,14 +45,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const FuzzResources resources;
   remap::AssetOptions core;
   core.instructions = remap::InstructionSet::kBaseline;
-  core.enlarges = true;
+  core.resamples = true;
   remap::AssetOptions exact = core, compact = core, specgloss = core, folded = core;
-  exact.extensions = true;
-  compact.compacts = compact.bakes = true;
+  exact.extensions = remap::DielectricExtensions::kWritten;
+  compact.compacts = true;
   compact.jpeg_quality = 90;
   specgloss.target = remap::AssetTarget::kSpecGloss;
-  specgloss.compacts = specgloss.bakes = true;
-  folded.folds_specular = folded.bakes = true;
+  specgloss.compacts = true;
+  folded.extensions = remap::DielectricExtensions::kFolded;
   return remap::read_or_refuse([&] {
     for (const remap::AssetOptions& options : {core, exact, compact, specgloss, folded}) {
       const remap::AssetConversion once =

@@ -69,9 +69,10 @@ void edit_twice(const std::string& bytes, const remap::AssetOptions& options,
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(remap::text_of(data, size));
   const MtlFuzzResources resources(bytes);
-  const remap::AssetOptions core{false, remap::kCleanPrior, remap::InstructionSet::kBaseline, true};
+  const remap::AssetOptions core{remap::DielectricExtensions::kKept, remap::kCleanPrior,
+                                 remap::InstructionSet::kBaseline, true};
   remap::AssetOptions extensions = core;
-  extensions.extensions = true;
+  extensions.extensions = remap::DielectricExtensions::kWritten;
   (void)remap::read_or_refuse([&] { edit_twice(bytes, core, resources); });
   (void)remap::read_or_refuse(
       [&] { (void)remap::gltf_of_obj(remap::MemorySource(bytes), "file", core, resources); });

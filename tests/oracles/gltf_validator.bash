@@ -49,12 +49,12 @@ JS
 
 readonly directions=(
   "--to gltf"
-  "--to gltf --extensions"
-  "--to gltf --keep-unused --bake --jpeg 90"
-  "--to gltf --fold-specular"
-  "--to gltf --fold-specular --keep-unused --bake"
+  "--to gltf --extensions write"
+  "--to gltf --keep-unused --resample --compression jpeg=90"
+  "--to gltf --extensions fold"
+  "--to gltf --extensions fold --keep-unused --resample"
   "--to gltf-specgloss"
-  "--to gltf-specgloss --keep-unused --bake"
+  "--to gltf-specgloss --keep-unused --resample"
 )
 mapfile -t files < <(find "$assets" -name '*.gltf' -o -name '*.glb' | sort)
 for i in "${!directions[@]}"; do
@@ -73,7 +73,7 @@ for i in "${!directions[@]}"; do
 done
 made=0
 while IFS= read -r file; do
-  for form in '' --extensions; do
+  for form in '' '--extensions write'; do
     for kind in glb gltf; do
       output=$work/made/$((++made))/made.$kind
       "$texremap" convert "$file" --to gltf $form -o "$output" >/dev/null 2>&1 || true

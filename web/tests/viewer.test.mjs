@@ -116,7 +116,7 @@ describe('the viewer', { skip }, () => {
       for (const alpha of [0.1, 0.25, 0.5, 0.8]) {
         const set = madeSet(`${model}-${alpha}`, { roughness: [alpha], specular: [0.7, 0.5, 0.3], diffuse: [0.1, 0.2, 0.3] });
         const ends = model === 'ggx' ? ['--from', 'mitsuba/ward', '--to', 'mitsuba/ggx'] : ['--from', 'mitsuba/ggx', '--to', `mitsuba/${model}`];
-        const error = await differenceToRemapc(page, set, ...ends, ...(model === 'phong' ? ['--exponent-of-white', '10000'] : []));
+        const error = await differenceToRemapc(page, set, ...ends, ...(model === 'phong' ? ['--output-encoding', 'exponent=10000'] : []));
         run.diagnostic(`alpha ${alpha}: ${(100 * error).toFixed(2)} % of the display's range`);
         assert.ok(error < 0.005, `${model}, alpha ${alpha}: ${error}`);
       }

@@ -51,7 +51,7 @@ test('what is wrong is said', () => {
   refused(() => convert({ ...names, ...maps, firstRow: -1 }), /firstRow: expected a whole number/);
   refused(() => convert({ ...names, ...maps, measures: ['residual'] }), /does not make 'residual'/);
   refused(() => convert({ ...names, ...maps, dielectricF0: 'x' }), /dielectricF0: expected a number/);
-  refused(() => convert({ source: 'gltf', target: 'metallic', dielectricF0: 2, baseColor: 1, metallic: 0, roughness: 0.5, sourceWorkflow: 'specular' }), /sourceWorkflow: the model gltf has the metallic workflow/);
+  refused(() => convert({ source: 'specular:gltf', target: 'metallic', dielectricF0: 2, baseColor: 1, metallic: 0, roughness: 0.5 }), /source specular:gltf: the model gltf has the metallic workflow/);
   refused(() => converter('mitsuba/ward', 'mitsuba/ggx', { via: 'mitsuba/as' }), /via: expected a list of names/);
   refused(() => converter('a'.repeat(100000), 'mitsuba/ggx'), /.+/);
   refused(() => converter('mitsuba/ward\0', 'mitsuba/ggx'), /without control characters/);
@@ -138,7 +138,7 @@ test('random requests', () => {
     sourceEncoding: () => pick(['alpha', 'roughness', 'exponent', 'glossiness', 'squared', 'x', 1]), targetEncoding: () => pick(['alpha', 'exponent', 'squared', null]),
     badTexels: () => pick(['keep', 'clamp', 'fail', '', 1]), dither: () => pick([true, false, 1, null]),
     measures: () => pick([[], ['residual'], ['issues', 'metallicUncertainty'], 'residual', [1]]), dielectricF0: () => pick([0, 0.04, 0.9, 1, -1, Infinity]),
-    metallicBias: () => pick([0, 1e-5, 1, 2, -1]), sourceWorkflow: () => pick(['specular', 'metallic', 'x', 2]), targetWorkflow: () => pick(['specular', 'metallic']),
+    metallicBias: () => pick([0, 1e-5, 1, 2, -1]),
     into: () => pick([{}, null, { roughness: array() }, { roughness: 1 }, { specular: [array(), array(), array()] }, []]), via: () => pick([[], ['mitsuba/as'], ['x'], 'x', [1]]), diffuseConvention: () => pick(['plain', 'scaled', 'x']),
   };
   let answers = 0;

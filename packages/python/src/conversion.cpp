@@ -132,8 +132,6 @@ ConversionRequest request_of(const Request& request) {
   asked.target = model_named(member<std::string>(request, "target").value_or(""));
   if (asked.source.empty() || asked.target.empty())
     throw usage_error(std::string(asked.source.empty() ? "source" : "target") + " is required");
-  asked.source_workflow = named_member(request, "source_workflow", kWorkflowKinds);
-  asked.target_workflow = named_member(request, "target_workflow", kWorkflowKinds);
   asked.via = member<std::vector<std::string>>(request, "via").value_or(std::vector<std::string>{});
   asked.diffuse_convention = named_member(request, "diffuse_convention", kDiffuseConventions);
   asked.dielectric_f0 = member<double>(request, "dielectric_f0");

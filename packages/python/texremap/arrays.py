@@ -97,8 +97,7 @@ class Converter:
     """Converts arrays of ``source`` into arrays of ``target``; see :func:`convert` for the arrays.
 
     source, target: names of :func:`models`; as target also a renderer (``"cycles-5"``), which stands for the closest of
-        its models.
-    source_workflow, target_workflow: ``"specular"`` or ``"metallic"``, a layer over a BRDF model.
+        its models. ``"specular:mitsuba/ward"`` and ``"metallic:mitsuba/ward"`` are layers over a BRDF model.
     via: models that the path visits, in this order.
     diffuse_convention: ``"plain"`` or ``"scaled"`` (glTF: times 1 - max(specular)), where a model leaves it open.
     dielectric_f0: F0 of dielectrics in metallic workflows, 0 to 0.9; by default the model's own (0.04 for glTF).
@@ -109,14 +108,12 @@ class Converter:
     A converter may be used by many threads at a time. Raises :class:`Error`.
     """
 
-    def __init__(self, source: str, target: str, *, source_workflow: Optional[str] = None,
-                 target_workflow: Optional[str] = None, via: Optional[Iterable[str]] = None,
+    def __init__(self, source: str, target: str, *, via: Optional[Iterable[str]] = None,
                  diffuse_convention: Optional[str] = None, dielectric_f0: Optional[float] = None,
                  metallic_bias: Optional[float] = None, converters: Union[str, "os.PathLike[str]", None] = None,
                  instructions: Optional[str] = None) -> None:
         request = {
-            "source": source, "target": target, "source_workflow": source_workflow,
-            "target_workflow": target_workflow, "via": None if via is None else list(via),
+            "source": source, "target": target, "via": None if via is None else list(via),
             "diffuse_convention": diffuse_convention, "dielectric_f0": dielectric_f0, "metallic_bias": metallic_bias,
             "converters": None if converters is None else os.fspath(converters), "instructions": instructions,
         }

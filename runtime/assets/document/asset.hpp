@@ -68,23 +68,35 @@ enum class AssetTarget {
   kSpecGloss,   // KHR_materials_pbrSpecularGlossiness; core stays in the file for other viewers
 };
 
+// A DielectricExtensions is what metal-rough materials do with KHR_materials_specular and _ior.
+enum class DielectricExtensions {
+  kKept,     // new materials use core only, and others keep their extensions
+  kWritten,  // new materials use them
+  kFolded,   // core replaces them in all materials, which needs AssetTarget::kMetalRough
+};
+// The first is the default, which has no word.
+inline constexpr NamedValues<DielectricExtensions, 2> kDielectricExtensions = {
+    {{DielectricExtensions::kWritten, "write"}, {DielectricExtensions::kFolded, "fold"}}};
+
 struct AssetOptions {
-  bool extensions = false;     // metal-rough with KHR_materials_specular and _ior, instead of only core
+  DielectricExtensions extensions = DielectricExtensions::kKept;
   double prior = kCleanPrior;  // prior of the projection (docs/workflows.md)
   InstructionSet instructions = best_instruction_set();
-  bool enlarges = false;  // true if images of a material are enlarged to the size of its largest image
+  // Enlarges images of a material to the size of its largest image, and moves maps with different
+  // KHR_texture_transform onto the grid of the first.
+  bool resamples = false;
   AssetTarget target = AssetTarget::kMetalRough;
-  // Folds KHR_materials_specular and _ior into core, too. This needs kMetalRough, and excludes `extensions`.
-  bool folds_specular = false;
   // Removes image bytes and texture extensions that only the converted materials used.
   bool compacts = false;
-  bool bakes = false;  // moves maps with different KHR_texture_transform onto the grid of the first
   std::optional<MtlMaker> mtl_maker = std::nullopt;  // if unset, detected from the file
   // This is the quality, 1 to 100, of new color images: JPEG, unless they have alpha or come from a color map
   // that is not JPEG. If it is missing, new images are PNG.
   std::optional<int> jpeg_quality = std::nullopt;
   // This is the compression level of new PNG images. If it is missing, the usual level applies.
   std::optional<int> png_level = std::nullopt;
+
+  bool writes_extensions() const { return extensions == DielectricExtensions::kWritten; }
+  bool folds_extensions() const { return extensions == DielectricExtensions::kFolded; }
 };
 
 enum class MaterialState {

@@ -54,7 +54,7 @@ double blender_scale(MtlMaker maker) { return maker == MtlMaker::kBlender28 ? 90
 std::string maker_warning(MtlMaker maker) {
   const auto blender = [maker] {
     return "Blender wrote it: roughness is 1 - sqrt(Ns / " + number_text(blender_scale(maker)) +
-           "), metallic is Ka if illum is 3, and Kd is not used if there is map_Kd (--mtl-from text reads "
+           "), metallic is Ka if illum is 3, and Kd is not used if there is map_Kd (--from mtl reads "
            "the file by the specification)";
   };
   switch (maker) {
@@ -64,8 +64,8 @@ std::string maker_warning(MtlMaker maker) {
     case MtlMaker::kBlender28:
       return blender();
     case MtlMaker::kNvdiffrec:
-      return "it has bsdf pbr: Ks holds roughness in green and metallic in blue (--mtl-from text reads it by "
-             "the text of the format)";
+      return "it has bsdf pbr: Ks holds roughness in green and metallic in blue (--from mtl reads it by "
+             "the specification)";
   }
   return "";
 }

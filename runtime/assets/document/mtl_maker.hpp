@@ -15,7 +15,7 @@ enum class MtlMaker {
   kBlender28,  // Blender 2.8 to 3.3: Ns is 900 (1 - roughness)^2
   kNvdiffrec,  // `bsdf pbr`: map_Ks holds roughness in green and metallic in blue (Munkberg et al. 2022)
 };
-inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "text"},
+inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "mtl"},
                                                          {MtlMaker::kBlender, "blender"},
                                                          {MtlMaker::kBlender28, "blender-2.8"},
                                                          {MtlMaker::kNvdiffrec, "nvdiffrec"}}};

@@ -13,7 +13,7 @@
 
 namespace remap {
 
-// A CoreTexts holds the JSON texts of a material in core glTF, and with --extensions also of
+// A CoreTexts holds the JSON texts of a material in core glTF, and with --extensions write also of
 // KHR_materials_specular.
 struct CoreTexts {
   std::array<std::string, 4> base_color;

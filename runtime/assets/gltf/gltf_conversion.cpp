@@ -55,15 +55,15 @@ class GltfConversion {
  public:
   GltfConversion(const GltfSource& source, const AssetOptions& options, const AssetResources* resources)
       : source_(source), root_(source.json.root()), options_(options) {
-    if (options.folds_specular && (options.target != AssetTarget::kMetalRough || options.extensions))
-      throw usage_error("KHR_materials_specular is only folded into core (--to gltf without --extensions)");
+    if (options.folds_extensions() && options.target != AssetTarget::kMetalRough)
+      throw usage_error("KHR_materials_specular is only folded into core (--to gltf)");
     if (resources != nullptr) parts_ = std::make_unique<ImageParts>(source, options, *resources);
     MaterialTextures* const textures = parts_ ? &parts_->textures : nullptr;
     if (options.target == AssetTarget::kSpecGloss)
       directions_.push_back(make_core_to_specgloss(options, textures));
     else
       directions_.push_back(make_specgloss_to_core(options, textures));
-    if (options.folds_specular) directions_.push_back(make_specular_fold(options, textures));
+    if (options.folds_extensions()) directions_.push_back(make_specular_fold(options, textures));
   }
 
   AssetConversion result() {

@@ -48,7 +48,7 @@ class SpecGlossToCore final : public GltfDirection {
   SpecGlossToCore(const AssetOptions& options, MaterialTextures* textures)
       : options_(options),
         textures_(textures),
-        maker_(options, textures, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions"}) {}
+        maker_(options, textures, GltfWorkflow::kSpecGloss, {"metallic", ", or --extensions write"}) {}
 
   bool applies_to(SpanValue material) const override {
     return static_cast<bool>(material["extensions"][kSpecGlossExtension]);
@@ -61,7 +61,7 @@ class SpecGlossToCore final : public GltfDirection {
   MaterialEdit convert(SpanValue material, AssetMaterial& report) override {
     GltfMaterial read = read_material(material, GltfWorkflow::kSpecGloss, report.warnings);
     const bool is_unlit = static_cast<bool>(material["extensions"][kUnlitExtension]);
-    const bool is_exact = options_.extensions && !is_unlit;
+    const bool is_exact = options_.writes_extensions() && !is_unlit;
     if (is_exact) require_exact_form(material);
     const CoreTexts texts = is_unlit   ? unlit(read, report)
                             : is_exact ? exact(read, report)
@@ -155,7 +155,7 @@ class SpecGlossToCore final : public GltfDirection {
       if (!is_reflecting(name)) continue;
       // Viewers of spec-gloss ignore these extensions. If they stayed, a second conversion of the file would
       // fold them.
-      if (options_.folds_specular && (name == kSpecularExtension || name == kIorExtension))
+      if (options_.folds_extensions() && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else
         report.warnings.push_back(name + ", ignored in spec-gloss materials, takes effect from now on");

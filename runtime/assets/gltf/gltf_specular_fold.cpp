@@ -31,7 +31,7 @@ class SpecularFold final : public GltfDirection {
     for (const char* name : {"KHR_materials_volume", "KHR_materials_dispersion"})
       if (material["extensions"][name])
         throw input_error("has " + std::string(name) +
-                          ", which needs KHR_materials_ior (convert it without --fold-specular)");
+                          ", which needs KHR_materials_ior (convert it without --extensions fold)");
     GltfMaterial read = read_material(material, GltfWorkflow::kDielectric, report.warnings);
     const CoreTexts texts = maker_.convert(read, report);
     report.residual = texts.residual;

@@ -115,11 +115,11 @@ void MaterialTextures::require_one_grid(const UsedTexture& first, const UsedText
                       std::to_string(first.info.tex_coord) + ", its " + other_name + " texture on TEXCOORD_" +
                       std::to_string(other.info.tex_coord) + ", and both" + decided +
                       " (bake them onto one in a modeller" + otherwise);
-  if (first.info.transform != other.info.transform && !options_.bakes)
+  if (first.info.transform != other.info.transform && !options_.resamples)
     throw input_error("its " + own_name + " and " + other_name +
-                      " textures have different KHR_texture_transform, and both" + decided + " (use --bake" +
-                      otherwise);
-  if (!options_.enlarges && first.info.transform == other.info.transform &&
+                      " textures have different KHR_texture_transform, and both" + decided +
+                      " (use --resample" + otherwise);
+  if (!options_.resamples && first.info.transform == other.info.transform &&
       !is_same_size(first.pixels(), other.pixels()))
     throw input_error("its " + own_name + " image has " + size_text(first.pixels()) + " texels, its " +
                       other_name + " image " + size_text(other.pixels()) + " (use --resample" + otherwise);

@@ -193,8 +193,8 @@ class MtlEditor {
         names_(resources != nullptr ? argument_prefix(resources->image_prefix()) : "") {}
 
   AssetConversion result() {
-    if (options_.extensions)
-      conversion_.warnings.push_back("MTL has no lines for --extensions (remove this option)");
+    if (options_.writes_extensions())
+      conversion_.warnings.push_back("MTL has no lines for --extensions write (remove this option)");
     if (const std::string warning = maker_warning(maker_); !warning.empty())
       conversion_.warnings.push_back(warning);
     conversion_.resources = named_images(document_, images_);

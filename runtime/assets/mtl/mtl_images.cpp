@@ -178,7 +178,7 @@ LegacyMaps load_maps(const MtlSurface& surface, const LegacyMaterial& factors, M
   load(surface.exponent_map, maps.exponent);
   if (named.empty()) return maps;
   require_one_place(named);
-  bring_to_one_size(named, images.resources(), options.enlarges);
+  bring_to_one_size(named, images.resources(), options.resamples);
   return maps;
 }
 

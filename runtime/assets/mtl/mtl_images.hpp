@@ -65,7 +65,7 @@ bool is_there(const AssetResources& resources, const std::string& path);
 
 // Loads the maps that the conversion of a surface needs, which multiply `factors`. Appends warnings. Throws
 // kInput if a map is missing or cannot be read. Also throws if maps differ in size (unless
-// `options.enlarges`) or place on the surface.
+// `options.resamples`) or place on the surface.
 LegacyMaps load_maps(const MtlSurface& surface, const LegacyMaterial& factors, MtlImages& images,
                      const AssetOptions& options, std::vector<std::string>& warnings);
 

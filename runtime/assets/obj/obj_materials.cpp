@@ -198,7 +198,7 @@ void ObjMaterials::set_reflection(MaterialDraft& draft) {
     if (draft.surface.is_metal_rough) return set_metal_rough(draft);
     if (is_glass(draft)) return set_glass(draft);
     const LegacyMaterial factors = reflection_of(draft.surface, draft.report.warnings);
-    if (options_.extensions)
+    if (options_.writes_extensions())
       set_dielectric(draft, factors);
     else
       set_core(draft, factors);
@@ -218,7 +218,7 @@ void ObjMaterials::keep_diffuse_map(MaterialDraft& draft) {
 // Uses Pr, Pm and their maps, which mean the same as in glTF. A map replaces the number.
 void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   const MtlSurface& surface = draft.surface;
-  const MetalRoughFactors numbers = metal_rough_of(surface, !options_.extensions);
+  const MetalRoughFactors numbers = metal_rough_of(surface, !options_.writes_extensions());
   draft.base = numbers.base_color;
   keep_diffuse_map(draft);
   draft.metallic = numbers.metallic;
@@ -237,10 +237,10 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
   constexpr double kSeen = 0.25;  // smaller changes of the level are invisible: F0 0.03 to 0.05 look alike
   const double level = draft.surface.specular_level.value_or(1.0);
   if (std::fabs(level - 1.0) < kSeen || draft.metallic == 1.0) return;
-  if (!options_.extensions) {
+  if (!options_.writes_extensions()) {
     if (level > 0.0)
       draft.report.warnings.push_back("loses its specular level Ks " + number_text(0.5 * level) +
-                                      " (--extensions keeps it)");
+                                      " (--extensions write keeps it)");
     return;
   }
   set_extension(draft, kSpecularExtension,
@@ -252,11 +252,11 @@ void ObjMaterials::set_specular_level(MaterialDraft& draft) {
 bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   const MtlCover& cover = draft.cover;
   if (!cover.refracts || is_transparent(draft) || cover.refraction.value_or(2.0) <= 1.0) return false;
-  if (cover.refraction && options_.extensions) return true;
+  if (cover.refraction && options_.writes_extensions()) return true;
   draft.report.warnings.push_back(
       cover.refraction
           ? "is glass by illum and Ni " + number_text(*cover.refraction) +
-                ", and becomes opaque (--extensions keeps it)"
+                ", and becomes opaque (--extensions write keeps it)"
           : "refracts by illum, but has no index Ni, so it becomes opaque (add a line Ni 1.5 for glass)");
   return false;
 }
@@ -437,7 +437,7 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
   // Many materials use one file for both color and opacity. Such a file stays unchanged.
   if (draft.keeps_file && opacity == color && channel == 'm' && opacity->has_alpha()) return false;
   if (color && opacity && (color->width != opacity->width || color->height != opacity->height)) {
-    if (!options_.enlarges)
+    if (!options_.resamples)
       throw input_error(plain(opacity_map->file, kLongestShown) +
                         ": its size differs from map_Kd (--resample enlarges the smaller one)");
     const std::size_t width = std::max(color->width, opacity->width),

@@ -19,17 +19,19 @@ namespace remap {
 struct ModelName {
   std::string name;  // name in converters and workflows; an alias is replaced by what it means
   const ModelAlias* alias = nullptr;  // the alias that the user typed
+  // If set, a BRDF model has a layer of this kind above it.
+  std::optional<WorkflowKind> workflow = std::nullopt;
   bool empty() const noexcept { return name.empty(); }
   // Returns the alias if there is one, otherwise the name.
   std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
-// Returns the meaning of `word`. Aliases and workflows ignore case. Other words mean themselves.
+// Returns the meaning of `word`, such as `mitsuba/ggx` or `metallic:mitsuba/ggx`. Aliases and workflows
+// ignore case. Other words mean themselves.
 ModelName model_named(const std::string& word);
 
 // These words name the parts of a request in messages.
 struct ConversionWords {
   std::string source = "source", target = "target", via = "via";
-  std::string source_workflow = "source_workflow", target_workflow = "target_workflow";
   std::string dielectric_f0 = "dielectric_f0", diffuse_convention = "diffuse_convention";
   std::string all_names = "models()";  // how to list every name
 };
@@ -38,8 +40,6 @@ struct ConversionRequest {
   // Each is a BRDF model (`mitsuba/ward`) or a workflow (`gltf`). The target may also be a renderer, which
   // means its closest model.
   ModelName source, target;
-  // If one of these is set, the BRDF model has a layer of this kind above it.
-  std::optional<WorkflowKind> source_workflow, target_workflow;
   std::vector<std::string> via;  // models that the path visits, in this order
   std::optional<DiffuseConvention> diffuse_convention;
   std::optional<double> dielectric_f0;  // for metallic workflows, 0 to 0.9; by default the model's F0

@@ -68,33 +68,48 @@ Reader<ParameterWord<Value>> parameter_word(Value (*read)(std::string_view optio
           {}};
 }
 
-Reader<int> compression_level() {
-  return {[](const std::string& option, const std::string& word) {
-            if (word.size() != 1 || word[0] < '1' || word[0] > '9')
-              throw usage_error(option + ": invalid compression level '" + word + "' (use 1 to 9)");
-            return word[0] - '0';
-          },
-          {}};
+// Reads `NAME=MAP`. Glossiness is not one of the names, because it would be read as roughness.
+Reader<ParameterWord<MapSource>> input_word() {
+  Reader<ParameterWord<MapSource>> reader = parameter_word(parameter_source);
+  reader.read = [read = reader.read](const std::string& option, const std::string& word) {
+    if (word.starts_with("glossiness="))
+      throw usage_error(option + " glossiness: has its own option (use --glossiness MAP)");
+    return read(option, word);
+  };
+  return reader;
 }
 
-Reader<int> jpeg_quality() {
-  return {[](const std::string& option, const std::string& word) {
-            const auto quality = parse_number(word);
-            if (!quality || *quality != std::floor(*quality) || *quality < 1.0 || *quality > 100.0)
-              throw usage_error(option + ": invalid JPEG quality '" + word + "' (use 1 to 100)");
-            return static_cast<int>(*quality);
-          },
-          {}};
+// Reads a level, `jpeg=QUALITY` or both, with a comma between.
+Reader<Compression> compression() {
+  return {
+      [](const std::string& option, const std::string& words) {
+        Compression compression;
+        for (const std::string& word : parts_between(words, ',')) {
+          const bool is_jpeg = word.starts_with("jpeg=");
+          const auto number = parse_number(is_jpeg ? word.substr(5) : word);
+          if (!number || *number != std::floor(*number) || *number < 1.0 || *number > (is_jpeg ? 100.0 : 9.0))
+            throw usage_error(option + ": invalid value '" + word + "' (use 1 to 9, or jpeg=1 to jpeg=100)");
+          (is_jpeg ? compression.jpeg_quality : compression.level) = static_cast<int>(*number);
+        }
+        return compression;
+      },
+      {}};
 }
 
-Reader<double> positive_number() {
-  return {[](const std::string& option, const std::string& word) {
-            const auto number = parse_number(word);
-            if (!number || !(*number > 0.0))
-              throw usage_error(option + ": invalid value '" + word + "' (use a number above 0)");
-            return *number;
+// Reads an encoding, or `exponent=NUMBER`.
+Reader<WrittenRoughness> written_roughness() {
+  const Reader<RoughnessEncoding> name = one_of(kRoughnessEncodings, "encoding");
+  return {[read = name.read](const std::string& option, const std::string& word) {
+            const std::size_t sign = word.find('=');
+            WrittenRoughness written{read(option, word.substr(0, sign)), std::nullopt};
+            if (sign == std::string::npos) return written;
+            written.white = parse_number(word.substr(sign + 1));
+            if (written.encoding != RoughnessEncoding::kExponent || !(written.white.value_or(0.0) > 0.0))
+              throw usage_error(option + ": invalid value '" + word +
+                                "' (only exponent has a number, which is above 0: exponent=1000)");
+            return written;
           },
-          {}};
+          name.choices};
 }
 
 Reader<Layout> layout() {
@@ -102,13 +117,6 @@ Reader<Layout> layout() {
   for (const NamedLayout& layout : named_layouts()) known.emplace_back(layout.name);
   return {[](const std::string& option, const std::string& word) { return layout_from(option, word); },
           known};
-}
-
-Reader<InstructionSet> instructions() {
-  return {[](const std::string& option, const std::string& word) {
-            return instruction_set_from_name(option, word);
-          },
-          {}};
 }
 
 // Reads the number from 0 to `highest` in `text`. `allowed` describes the accepted words in messages.
@@ -158,7 +166,13 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
 }  // namespace
 
 Reader<ModelName> model_name() {
-  return {[](const std::string&, const std::string& word) { return model_named(word); }, {}};
+  return {[](const std::string& option, const std::string& word) {
+            ModelName model = model_named(word);
+            if (model.workflow && model.empty())
+              throw usage_error(option + ": no model in '" + word + "' (write " + word + "mitsuba/ggx)");
+            return model;
+          },
+          {}};
 }
 
 namespace {
@@ -176,9 +190,11 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
   command
-      .add_option("--from MODEL", options.from, model_name(),
-                  "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
-                  "from the maps)")
+      .add_option(
+          "--from MODEL", options.from, model_name(),
+          "Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ... (default: detected "
+          "from the maps). Program that wrote the MTL files: blender, blender-2.8, nvdiffrec; or mtl, which "
+          "reads them by the specification (default: detected from the file)")
       ->common()
       ->tag(kForAssets);
   command
@@ -229,30 +245,16 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->excludes(command.option("--fit"));
   options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
   command
-      .add_flag("--extensions", options.extensions,
-                "Use KHR_materials_specular and KHR_materials_ior: exact in viewers that read them, wrong in "
-                "others")
-      ->tag(kChangesResults | kNeedsAsset);
-  command
       .add_option(
-          "--mtl-from MAKER", options.mtl_maker, one_of(kMtlMakers, "maker"),
-          "Read MTL files as this program writes them, instead of as their first lines say; text: as the "
-          "text of the format states")
+          "--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
+          "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
+          "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
+          "converted materials, others unchanged)")
       ->tag(kChangesResults | kNeedsAsset);
-  const auto add_asset_flag = [&](const char* name, bool& flag, const char* description) {
-    command.add_flag(name, flag, description)->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
-  };
-  add_asset_flag(
-      "--fold-specular", options.fold_specular,
-      "Fold KHR_materials_specular and KHR_materials_ior into core, for viewers that do not read them");
-  add_asset_flag("--keep-unused", options.keep_unused,
-                 "Keep images and textures of a glTF file that only its converted materials used");
-  add_asset_flag("--bake", options.bake,
-                 "Bring maps of a material whose KHR_texture_transform differ onto the grid of the first");
   command
-      .add_option("--jpeg QUALITY", options.jpeg, jpeg_quality(),
-                  "Write new maps of color as JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
-      ->tag(kNeedsGltf | kChangesResults | kNeedsAsset);
+      .add_flag("--keep-unused", options.keep_unused,
+                "Keep images and textures of a glTF file that only its converted materials used")
+      ->tag(kChangesResults | kNeedsAsset | kNeedsGltf);
 }
 
 // The footer of the command explains the value MAP.
@@ -278,10 +280,12 @@ void add_map_options(Command& command, ConvertOptions& options) {
                   "Ambient occlusion; --layout places it unconverted")
       ->tag(kChangesResults);
   command
-      .add_option("--input NAME=MAP", options.inputs, parameter_word(parameter_source),
-                  "Another input of a whole material, such as coat_weight=coat.png or sheen_color=1,0.9,0.8; "
-                  "repeatable (for --from or --to openpbr and standard-surface)")
-      ->tag(kChangesResults | kNeedsTranslation);
+      .add_option(
+          "--input NAME=MAP", options.inputs, input_word(),
+          "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
+          "openpbr and standard-surface), or metal_mask=mask.png, which decides between metallic values "
+          "that look alike; repeatable")
+      ->tag(kChangesResults);
   command
       .add_option(
           "--roughness-encoding NAME", options.roughness_encoding, map_encoding(),
@@ -297,7 +301,8 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_flag("--resample", options.resample,
-                "Enlarge smaller maps of a set to the largest size, bilinearly")
+                "Enlarge smaller maps of a set to the largest size, bilinearly; bring maps with another "
+                "KHR_texture_transform onto one grid")
       ->common()
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
@@ -311,6 +316,29 @@ void add_map_options(Command& command, ConvertOptions& options) {
   command.add_option("--names FILE", options.names, "More naming conventions for the maps in DIR (JSON)")
       ->tag(kChangesResults | kNeedsFolder);
 }
+
+constexpr std::array<std::pair<const char*, const char*>, 20> kNewNames = {{
+    {"--preset", "--to (for the packed files of glTF: --to gltf --layout gltf)"},
+    {"--fold-specular", "--extensions fold"},
+    {"--bake", "--resample"},
+    {"--histograms", "--verbose, with --json"},
+    {"--metal-mask", "--input (for example: --input metal_mask=mask.png)"},
+    {"--from-workflow", "--from (for example: --from specular:mitsuba/ward)"},
+    {"--to-workflow", "--to (for example: --to specular:mitsuba/ward)"},
+    {"--mtl-from", "--from (for example: --from blender)"},
+    {"--jpeg", "--compression (for example: --compression jpeg=90)"},
+    {"--instructions", "REMAP_INSTRUCTIONS, an environment variable"},
+    {"--bad-texels", "--nan"},
+    {"--prior", "--metallic-bias"},
+    {"--output-roughness-factor", "--output-encoding (for example: --output-encoding exponent=1000)"},
+    {"--exponent-of-white", "--output-encoding (for example: --output-encoding exponent=1000)"},
+    {"--roughness-factor", "--factor (for example: --factor roughness=0.5)"},
+    {"--glossiness-factor", "--factor (for example: --factor glossiness=0.5)"},
+    {"--specular-factor", "--factor (for example: --factor specular=0.5)"},
+    {"--diffuse-factor", "--factor (for example: --factor diffuse=0.5)"},
+    {"--base-color-factor", "--factor (for example: --factor base_color=0.5)"},
+    {"--metallic-factor", "--factor (for example: --factor metallic=0.5)"},
+}};
 
 void add_output_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: output");
@@ -332,9 +360,11 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option(
-          "--compression LEVEL", options.compression, compression_level(),
+          "--compression LEVEL", options.compression, compression(),
           "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in assets)")
+          "PNG files, 3 in assets). In glTF files also jpeg=QUALITY or 9,jpeg=90: writes new maps of color "
+          "as "
+          "JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),
@@ -355,12 +385,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "--allow-skips",
       "is no longer needed: texremap skips sets that have nothing to convert (remove this option)");
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
-  command.retire("--preset", "is now called --to (for the packed files of glTF: --to gltf --layout gltf)");
   command.retire("--profile",
-                 "was removed (for --profile extensions, use --extensions; core is the default)");
-  command.retire("--bad-texels", "is now called --nan");
-  command.retire("--output-roughness-factor", "is now called --exponent-of-white");
-  command.retire("--prior", "is now called --metallic-bias");
+                 "was removed (for --profile extensions, use --extensions write; core is the default)");
+  for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
   command.retire("--copy-others",
                  "is no longer needed: texremap copies all maps of a set (remove this option; "
                  "--only-converted writes only converted maps)");
@@ -370,39 +397,28 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.add_flag("--dry-run", options.dry_run, "Show what would happen to each map; write nothing")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  Option* json = command
-                     .add_flag("--json", options.json,
-                               "Print a report as JSON; of several sets or assets a line for each")
-                     ->common()
-                     ->tag(kOfPlan | kForAssets);
+  command
+      .add_flag("--json", options.json, "Print a report as JSON; of several sets or assets a line for each")
+      ->common()
+      ->tag(kOfPlan | kForAssets);
   command
       .add_option("--report FILE", options.report,
                   "Also write an HTML file that shows the first materials before and after")
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
-  command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
-      ->tag(kNeedsFiles)
-      ->needs(json);
   Option* quiet = command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error")
                       ->tag(kForAssets);
   command
-      .add_flag("--verbose", options.verbose,
-                "Print every warning, the converter, and measures of each set that pictures do not show")
+      .add_flag(
+          "--verbose", options.verbose,
+          "Print every warning, the converter, and measures of each set that pictures do not show; with "
+          "--json also histograms")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }
 
 void add_workflow_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: whole materials (metallic and specular workflows)");
-  command
-      .add_option("--from-workflow NAME", options.from_workflow, one_of(kWorkflowKinds, "workflow"),
-                  "Workflow around the source model: specular (diffuse, specular) or metallic (base color, "
-                  "metallic)")
-      ->tag(kChangesResults | kNotWithDiffuseWarp);
-  command
-      .add_option("--to-workflow NAME", options.to_workflow, one_of(kWorkflowKinds, "workflow"),
-                  "Workflow around the target model")
-      ->tag(kChangesResults | kNotWithWarp);
   command
       .add_option("--dielectric-f0 VALUE", options.dielectric_f0, f0_choice(),
                   "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the "
@@ -420,34 +436,22 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
                   "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
                   "from 0 to 1")
       ->tag(kForAssets | kChangesResults | kNeedsMetallic);
-  command
-      .add_option("--metal-mask MAP", options.maps[Parameter::kMetalMask], map_source(),
-                  "Map of the metals, which decides between metallic values that look alike")
-      ->tag(kChangesResults | kNeedsMetallic);
 }
 
 void add_rare_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: encodings and factors");
   command
       .add_option(
-          "--output-encoding NAME", options.output_encoding, one_of(kRoughnessEncodings, "encoding"),
+          "--output-encoding NAME", options.output_roughness, written_roughness(),
           "What the roughness results hold (default: as the inputs where that is known, else what the "
-          "target model takes; a file named glossiness contains glossiness)")
-      ->tag(kChangesResults);
-  command
-      .add_option("--exponent-of-white NUMBER", options.output_roughness_factor, positive_number(),
-                  "Exponent that 1, or white, means in the result: 1000 as in MTL files, 128 as in OpenGL, "
-                  "100 for percent")
+          "target model takes; a file named glossiness contains glossiness). exponent=1000: white means an "
+          "exponent of 1000, as in MTL files; OpenGL has 128")
       ->tag(kChangesResults);
   command
       .add_option("--factor NAME=NUMBERS", options.factors, parameter_word(parse_factors),
                   "Multiply this input: roughness or glossiness before it is decoded, colors in linear light "
                   "by one number or three; repeatable")
       ->tag(kChangesResults | kNotWithDiffuseWarp);
-  for (const char* name :
-       {"--roughness", "--glossiness", "--specular", "--diffuse", "--base-color", "--metallic"})
-    command.retire(std::string(name) + "-factor",
-                   "is now called --factor (for example: --factor roughness=0.5)");
   command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
       ->tag(kChangesResults | kNeedsFiles);
 
@@ -465,10 +469,6 @@ void add_rare_options(Command& command, ConvertOptions& options) {
       ->default_text("keep")
       ->tag(kChangesResults);
   command.option_group("Rare: speed");
-  command
-      .add_option("--instructions NAME", options.instructions, instructions(),
-                  "baseline, avx2 or avx512; results are identical (default: the widest of this processor)")
-      ->tag(kForAssets);
   command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
       ->range(0, 1024)
       ->tag(kOfPlan | kForAssets);
@@ -529,8 +529,16 @@ int ConvertOptions::threads() const {
 
 void note_given(const Command& command, ConvertOptions& options) {
   options.given = command.given();
+  constexpr const char* kVariable = "REMAP_INSTRUCTIONS";
+  if (const char* name = std::getenv(kVariable))
+    options.instructions = instruction_set_from_name(kVariable, name);
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
-  for (const auto& [parameter, source] : options.inputs) options.maps[parameter] = source;
+  for (const auto& [parameter, source] : options.inputs) {
+    std::optional<MapSource>& map = options.maps[parameter];
+    if (map)
+      throw usage_error("--input " + plain_name(parameter) + ": is given twice (remove one of the two)");
+    map = source;
+  }
 }
 
 std::vector<float> ConvertOptions::factors_of(Parameter parameter) const {
@@ -546,6 +554,10 @@ void add_convert_options(Command& command, ConvertOptions& options) {
   add_rare_options(command, options);
 }
 
+std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options) {
+  return value_named(kMtlMakers, options.from.word());
+}
+
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
   for (const GivenOption& option : options.given)
     if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
@@ -557,8 +569,15 @@ std::string result_options_text(const ConvertOptions& options) {
   for (const GivenOption& option : options.given)
     if ((option.tags & kChangesResults) != 0)
       add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
+  const auto add_workflow = [&](const std::string& option, const ModelName& model) {
+    if (model.workflow)
+      add(option + " " + std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" + model.name);
+  };
+  add_workflow("--from", options.from);
+  add_workflow("--to", options.to);
   if (options.engine != nullptr) add("--layout " + std::string(options.engine->name));
-  if (!options.only_converted && normals_of(options.from)) add("--from " + std::string(options.from.word()));
+  if (mtl_maker_of(options) || (!options.only_converted && normals_of(options.from)))
+    add("--from " + std::string(options.from.word()));
   return text;
 }
 

@@ -39,7 +39,6 @@ enum : OptionTags {
   kNeedsTree = 1u << 11u,          // if the run converts assets, needs a folder of assets
   kIsPath = 1u << 12u,             // path of a file or folder, relative to the working folder
   kOfPlan = 1u << 13u,             // texremap plan sets this option itself
-  kNeedsTranslation = 1u << 14u,   // needs surfaces as source and target
 };
 
 using MapSource = std::variant<MapName, ConstantValues>;
@@ -57,6 +56,12 @@ struct ParameterWord {
   Value value;
 };
 
+// A WrittenRoughness is what roughness results contain.
+struct WrittenRoughness {
+  std::optional<RoughnessEncoding> encoding;  // by default, see --output-encoding
+  std::optional<double> white;                // the exponent that a stored value of 1 means, if known
+};
+
 // An F0Choice is the F0 of dielectrics, or where it comes from.
 enum class F0Source { kModel, kMaps };
 using F0Choice = std::variant<F0Source, double>;  // by default: the F0 of the model
@@ -68,17 +73,19 @@ Reader<ModelName> model_name();
 std::uint64_t memory_limit(int megabytes);
 Option* add_memory_option(Command& command, int& megabytes);
 
+struct Compression {
+  std::optional<int> level, jpeg_quality;
+};
+
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
   std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
   std::vector<std::filesystem::path> more_assets;
-  bool assets = false;                // the folder holds assets, not texture sets
-  std::filesystem::path asset_root;   // assets may name only files below this folder
-  bool extensions = false;            // glTF extensions instead of core
-  std::optional<MtlMaker> mtl_maker;  // program that wrote the MTL files; if unset, detected
-  bool fold_specular = false, keep_unused = false, bake = false;
-  std::optional<int> jpeg;  // JPEG quality
+  bool assets = false;               // the folder holds assets, not texture sets
+  std::filesystem::path asset_root;  // assets may name only files below this folder
+  DielectricExtensions extensions = DielectricExtensions::kKept;
+  bool keep_unused = false;
   ModelName from, to;
   std::vector<std::string> via;
   std::string fit;
@@ -99,7 +106,6 @@ struct ConvertOptions {
   std::filesystem::path names;
   bool resample = false;
 
-  std::optional<WorkflowKind> from_workflow, to_workflow;
   F0Choice dielectric_f0;
   std::optional<DiffuseConvention> diffuse_convention;
   double prior = kCleanPrior;
@@ -109,9 +115,8 @@ struct ConvertOptions {
   const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
   std::optional<PixelType> type;
-  std::optional<int> compression;  // compression level
-  std::optional<RoughnessEncoding> output_encoding;
-  std::optional<double> output_roughness_factor;  // the exponent that a stored value of 1 means, if known
+  Compression compression;
+  WrittenRoughness output_roughness;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none
@@ -119,7 +124,7 @@ struct ConvertOptions {
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool only_converted = false, force = false, dry_run = false;
-  bool json = false, histograms = false, quiet = false, verbose = false;
+  bool json = false, quiet = false, verbose = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;
@@ -144,6 +149,9 @@ void choose_files(ConvertOptions& options);
 
 // Returns the direction of green in normal maps of a source or target, or nothing if it is not documented.
 std::optional<NormalGreen> normals_of(const ModelName& model);
+
+// Returns the program that wrote the MTL files, by `--from`. If unset, it is detected.
+std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options);
 
 // Throws kUsage if an option with `tag` was given, with the option and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);

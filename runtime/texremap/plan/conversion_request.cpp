@@ -88,12 +88,18 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
   }
   const auto refuse_input = [&](const std::string& option, Parameter parameter) {
     if (!workflow.has_source(parameter))
-      throw usage_error(
-          option + " " + plain_name(parameter) +
-          ": has no effect, because the source material has no such input (remove this option)");
+      throw usage_error(option + " " + plain_name(parameter) +
+                        ": has no effect, because this conversion reads no such input (remove this option)");
   };
   for (const auto& word : options.factors) refuse_input("--factor", word.parameter);
-  for (const auto& word : options.inputs) refuse_input("--input", word.parameter);
+  for (const auto& [parameter, source] : options.inputs) {
+    if (is_input(parameter) && !workflow.translation)
+      throw usage_error(
+          parameter_option(parameter) +
+          ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
+          "blender, gltf or usd (for other models, convert to openpbr first)");
+    if (parameter != Parameter::kMetalMask || !workflow.finds_metallic()) refuse_input("--input", parameter);
+  }
 }
 
 // Refuses options of folders if there is only one set, and maps that cannot be used with a folder.
@@ -189,8 +195,9 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Conver
     if (map == nullptr || !map->channels.empty())
       throw Error(ErrorKind::kUsage,
                   parameter_option(parameter) +
-                      ": cannot be converted without a workflow (give a file to copy it, or "
-                      "set --from-workflow)");
+                      ": cannot be converted without a workflow (give a file to copy it, or use --from " +
+                      (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name +
+                      ")");
     files.push_back({map->file, std::string(parameter_name(parameter)), ""});
   }
   return files;
@@ -238,7 +245,7 @@ namespace {
 
 // Refuses an encoding of the results that their names contradict, or that no result uses.
 void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
-  const auto& asked = options.output_encoding;
+  const auto& asked = options.output_roughness.encoding;
   if (!asked) return;
   const std::optional<RoughnessEncoding> held = choice.layout.width();
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
@@ -320,8 +327,8 @@ void apply(const TranslationEffect& effect, TargetChoice& choice) {
 
 TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow) {
   TargetChoice choice;
-  choice.treatment = {options.output_encoding,
-                      static_cast<float>(options.output_roughness_factor.value_or(1.0)),
+  choice.treatment = {options.output_roughness.encoding,
+                      static_cast<float>(options.output_roughness.white.value_or(1.0)),
                       options.bad_texels,
                       options.dither,
                       options.json,
@@ -334,7 +341,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
                       : as_inputs();
   choice.extension = options.format;
   choice.type = options.type;
-  choice.compression_level = options.compression;
+  choice.compression_level = options.compression.level;
   choice.diagnosis_folder = options.diagnose;
   if (!options.diagnose.empty()) {
     choice.diagnoses = {MaskChannel{}};
@@ -351,12 +358,6 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
                                         colors_among(choice.parameters), "is written");
   require_encoding(options, choice);
   return choice;
-}
-
-void require_factor_of_exponent(bool is_given, RoughnessEncoding width) {
-  if (is_given && width != RoughnessEncoding::kExponent)
-    throw usage_error("--exponent-of-white: applies only to exponents, but the results contain " +
-                      std::string(encoding_name(width)) + " (remove this option)");
 }
 
 }  // namespace remap

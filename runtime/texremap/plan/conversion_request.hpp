@@ -40,7 +40,5 @@ void apply(const TranslationEffect& effect, TargetChoice& choice);
 // stay true. A glossiness map that keeps its name stays glossiness, orm and arm hold roughness, and specgloss
 // holds glossiness. Throws kUsage if --output-encoding contradicts such a name.
 RoughnessEncoding written_width(const TargetChoice& choice, const TextureSet& set, RoughnessEncoding usual);
-// Refuses --exponent-of-white for results without an exponent.
-void require_factor_of_exponent(bool is_given, RoughnessEncoding width);
 
 }  // namespace remap

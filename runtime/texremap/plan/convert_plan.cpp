@@ -9,6 +9,7 @@
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "paths/converter_file.hpp"
@@ -176,7 +177,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   TextureSetRequest request = set_request(options, workflow);
   SetPlan& sets = plan.work.emplace<SetPlan>(
       SetPlan{options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
-              std::move(targets), options.dielectric_f0, options.output_roughness_factor.has_value()});
+              std::move(targets), options.dielectric_f0, options.output_roughness.white.has_value()});
   const BuiltConversion& chosen = sets.chosen;
   const auto name = [](const ModelName& typed, const ModelSide& side) {
     return typed.alias != nullptr ? std::string(typed.word()) : side.model;
@@ -237,26 +238,36 @@ void require_asset_options(const ConvertOptions& options) {
                            ? std::string("--root, because DIR is the root already (remove --root)")
                            : display_path(options.more_assets.front()) + " (give one folder)"));
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
-  if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source)
-    throw usage_error("--from " + options.from.name +
-                      ": texremap reads the material model from the file (remove this option)");
+  if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source &&
+      !mtl_maker_of(options))
+    throw usage_error(
+        "--from " + options.from.name +
+        ": texremap reads the material model from the file (remove this option; for MTL files, use " +
+        joined(names_of(kMtlMakers), ", ") + ")");
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +
                       ": the materials of an asset can become gltf or gltf-specgloss (use --to gltf)");
   if (options.output.empty()) throw usage_error("--output is required");
-  const bool is_core = options.to.name == "gltf" && !options.extensions;
-  if (options.fold_specular && !is_core)
-    throw usage_error("--fold-specular: needs --to gltf, without --extensions (remove this option)");
-  if (options.to.name != "gltf" && options.extensions)
+  if (options.to.name != "gltf" && options.extensions != DielectricExtensions::kKept)
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
+}
+
+const std::string kOnlyGltf = ": applies to glTF files only (remove this option)";
+
+void require_no_jpeg(const ConvertOptions& options) {
+  if (options.compression.jpeg_quality) throw usage_error("--compression jpeg" + kOnlyGltf);
 }
 
 // Refuses options that no asset of the run uses.
 void require_gltf(const ConvertOptions& options, const JobList& list) {
-  if (std::ranges::any_of(list.jobs,
-                          [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); }))
-    return;
-  refuse(options, kNeedsGltf, ": applies to glTF files only (remove this option)");
+  const auto is_gltf = [](const Job& job) { return is_gltf_name(std::get<AssetWork>(job.work).input); };
+  if (mtl_maker_of(options) && std::ranges::all_of(list.jobs, is_gltf))
+    throw usage_error("--from " + std::string(options.from.word()) +
+                      ": applies to MTL and OBJ files only (remove this option)");
+  if (std::ranges::any_of(list.jobs, is_gltf)) return;
+  refuse(options, kNeedsGltf, kOnlyGltf);
+  if (options.extensions == DielectricExtensions::kFolded) throw usage_error("--extensions fold" + kOnlyGltf);
+  require_no_jpeg(options);
   if (options.to.name != "gltf")
     throw usage_error("--to " + options.to.name +
                       ": materials of MTL and OBJ files can only become gltf (use --to gltf)");
@@ -265,12 +276,10 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
 AssetOptions asset_options(const ConvertOptions& options) {
   AssetOptions asset{options.extensions, options.prior, options.instructions, options.resample};
   asset.target = options.to.name == "gltf-specgloss" ? AssetTarget::kSpecGloss : AssetTarget::kMetalRough;
-  asset.folds_specular = options.fold_specular;
-  asset.mtl_maker = options.mtl_maker;
+  asset.mtl_maker = mtl_maker_of(options);
   asset.compacts = !options.keep_unused;
-  asset.bakes = options.bake;
-  asset.jpeg_quality = options.jpeg;
-  asset.png_level = options.compression;
+  asset.jpeg_quality = options.compression.jpeg_quality;
+  asset.png_level = options.compression.level;
   return asset;
 }
 
@@ -290,6 +299,7 @@ void plan_assets(const ConvertOptions& options, const std::optional<TreeManifest
 bool are_assets(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   if (manifest ? manifest->head.kind == ListedKind::kAssets : options.assets || is_asset(options.folder))
     return true;
+  require_no_jpeg(options);
   refuse(options, kNeedsAsset,
          ": applies only to assets (remove this option, give a glTF, MTL or OBJ file, or add --assets)");
   return false;
@@ -344,7 +354,6 @@ ConvertPlan resolve(ConvertOptions options) {
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();
   plan.json = options.json;
-  plan.histograms = options.histograms;
   plan.quiet = options.quiet;
   plan.verbose = options.verbose;
   return plan;

@@ -46,7 +46,7 @@ struct ConvertPlan {
   ManifestHead manifest;
 
   std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions
-  bool json = false, histograms = false, quiet = false, verbose = false;
+  bool json = false, quiet = false, verbose = false;
 
   // Returns null for assets.
   const SetPlan* sets() const { return std::get_if<SetPlan>(&work); }

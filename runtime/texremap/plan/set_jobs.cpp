@@ -306,7 +306,7 @@ void SetJobs::add_tile(const FoundSet& set, int tile, const std::vector<std::str
                {},
                {},
                notes};
-  for (const Parameter parameter : workflow_.sources())
+  for (const auto& [parameter, asked] : defaults_.parameters)
     if (!find_source(set, parameter, number, tile, work)) return;
   work.effect = effect_of(workflow_, work.request);
   if (const auto found = uses_of(set, Parameter::kDiffuse); !workflow_.is_material() && !found.empty())

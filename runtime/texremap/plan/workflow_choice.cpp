@@ -1,5 +1,6 @@
 #include "texremap/plan/workflow_choice.hpp"
 
+#include "core/errors.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -7,14 +8,7 @@ namespace {
 
 // Returns the words of the command line.
 ConversionWords option_words() {
-  return {"--from",
-          "--to",
-          "--via",
-          "--from-workflow",
-          "--to-workflow",
-          "--dielectric-f0",
-          "--diffuse-convention",
-          "texremap list"};
+  return {"--from", "--to", "--via", "--dielectric-f0", "--diffuse-convention", "texremap list"};
 }
 
 void require_estimable(const ConversionChoice& choice) {
@@ -29,14 +23,10 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
   if (choice.is_material())
     refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
   else
-    refuse(options, kNeedsWorkflow | kNeedsMetallic,
-           " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
-           "--workflows)");
-  if (!choice.translation)
     refuse(
-        options, kNeedsTranslation,
-        ": --from or --to must be openpbr or standard-surface, and the other option one of these, blender, "
-        "gltf or usd (for other models, convert to openpbr first)");
+        options, kNeedsWorkflow | kNeedsMetallic,
+        " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or choose a "
+        "model of texremap list --workflows)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because every input is translated (remove this option)");
@@ -44,7 +34,8 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
     refuse(options, kNeedsMetallic,
            ": has no effect, because source and target have the same material model (remove this option)");
   if (!choice.is_to_metallic())
-    refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
+    refuse(options, kNeedsMetallic,
+           " requires a metallic target (choose another --to, such as gltf or metallic:mitsuba/ggx)");
 }
 
 }  // namespace
@@ -54,8 +45,6 @@ ConversionChoice workflow_choice(const ConvertOptions& options) {
   ConversionRequest request;
   request.source = options.from;
   request.target = options.to;
-  request.source_workflow = options.from_workflow;
-  request.target_workflow = options.to_workflow;
   request.via = options.via;
   request.diffuse_convention = options.diffuse_convention;
   request.prior = options.prior;
@@ -78,6 +67,9 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 // Handles a warp whose source is only a diffuse map. It has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, ConversionChoice& choice) {
   refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
+  if (kind_of(*choice.source) == WorkflowKind::kMetallic)
+    throw usage_error("--from metallic:" + options.from.name + ": " + options.fit +
+                      " converts only a diffuse map (remove this option)");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
 }
@@ -96,13 +88,16 @@ ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFi
   refuse_with_warp(options, kNotWithWarp, options.fit);
   require_model_of_fit(options.fit, "--from", options.from.name, fit.source_model);
   require_model_of_fit(options.fit, "--to", options.to.name, fit.template_model);
+  if (options.to.workflow)
+    throw usage_error("--to: results of the warp " + options.fit +
+                      " have the specular workflow (remove this option)");
   // The warp was made from maps of roughness.
   const RoughnessEncoding width = options.reads_glossiness()
                                       ? RoughnessEncoding::kGlossiness
                                       : options.roughness_encoding.value_or(RoughnessEncoding::kRoughness);
   // `remapc warp` reads metallic sets in the same way.
   ConversionChoice choice =
-      choice_of_warp(fit, options.from_workflow.value_or(WorkflowKind::kSpecular), width);
+      choice_of_warp(fit, options.from.workflow.value_or(WorkflowKind::kSpecular), width);
   if (is_of_diffuse_alone(fit)) choose_diffuse_alone(options, choice);
   require_workflow(options, choice);
   return choice;

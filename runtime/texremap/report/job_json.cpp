@@ -132,7 +132,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
       named.push_back(parameter);
   const auto of = [&](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);
-    return found == all.end() ? Json() : values_json(found->second, plan.histograms);
+    return found == all.end() ? Json() : values_json(found->second, plan.verbose);
   };
   for (const Parameter parameter : named)
     if (parameter != Parameter::kMetallicIssues)

@@ -213,7 +213,6 @@ void print_converted_numbers(const ConvertPlan& plan) {
     maps.target_convention = width_of(*chosen.choice.target);
   maps.bad_texels = sets.targets.treatment.bad_texels;
   const RoughnessEncoding width = maps.target_convention.value_or(info.target.roughness);
-  require_factor_of_exponent(sets.scales_exponents, width);
   const auto specular = maps.sources.find(Parameter::kSpecular);
   std::vector<ConvertedNumbers> values;
   for (const Parameter parameter : chosen.converter().targets()) {

@@ -302,7 +302,6 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   choice.width_name = width == RoughnessEncoding::kGlossiness ? "glossiness"
                       : is_exponent                           ? "exponent"
                                                               : "roughness";
-  require_factor_of_exponent(sets_.scales_exponents, width);
   if (sets_.scales_exponents || width != set.convention.value_or(chosen_.info().source.roughness))
     std::erase(choice.unchanged, Parameter::kRoughness);
   const TargetPlan targets = plan_targets(set, choice);

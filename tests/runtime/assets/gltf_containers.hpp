@@ -14,8 +14,10 @@
 
 namespace remap {
 
-inline constexpr AssetOptions kCoreOptions = {false, kCleanPrior, InstructionSet::kBaseline, false};
-inline constexpr AssetOptions kExactOptions = {true, kCleanPrior, InstructionSet::kBaseline, false};
+inline constexpr AssetOptions kCoreOptions = {DielectricExtensions::kKept, kCleanPrior,
+                                              InstructionSet::kBaseline, false};
+inline constexpr AssetOptions kExactOptions = {DielectricExtensions::kWritten, kCleanPrior,
+                                               InstructionSet::kBaseline, false};
 
 inline ImagePixels random_pixels(std::size_t channels, std::uint32_t seed,
                                  PixelType type = PixelType::kUint8) {

@@ -130,7 +130,7 @@ class PlainResources final : public AssetResources {
 inline bool may_lose(const std::string& extension, const AssetOptions& options) {
   const bool is_dielectric = extension == kSpecularExtension || extension == kIorExtension;
   if (options.target == AssetTarget::kSpecGloss) return is_dielectric;
-  return extension == kSpecGlossExtension || (options.folds_specular && is_dielectric);
+  return extension == kSpecGlossExtension || (options.folds_extensions() && is_dielectric);
 }
 
 inline void require_material_kept(SpanValue before, SpanValue after, const AssetOptions& options) {

@@ -35,7 +35,8 @@ std::string material_of(const std::string& text, const AssetOptions& options = {
   return std::string(SpannedJson(json, "file").root()["materials"].children().at(0).raw());
 }
 
-constexpr AssetOptions kExact = {true, kCleanPrior, InstructionSet::kBaseline, false};
+constexpr AssetOptions kExact = {DielectricExtensions::kWritten, kCleanPrior, InstructionSet::kBaseline,
+                                 false};
 
 }  // namespace
 
@@ -371,7 +372,7 @@ TEST_CASE("Random files keep every byte but those of converted materials in ever
   for (AssetOptions* options : {&specgloss, &folded, &compact})
     options->instructions = InstructionSet::kBaseline;
   specgloss.target = AssetTarget::kSpecGloss;
-  folded.folds_specular = true;
+  folded.extensions = DielectricExtensions::kFolded;
   compact.compacts = true;
   const PlainResources resources;
   std::size_t converted = 0;
@@ -379,7 +380,7 @@ TEST_CASE("Random files keep every byte but those of converted materials in ever
     for (const AssetOptions& options : {specgloss, folded, compact}) {
       RandomText random(seed);
       const std::string text = random_gltf(random, true);
-      CAPTURE(seed, text, static_cast<int>(options.target), options.folds_specular);
+      CAPTURE(seed, text, static_cast<int>(options.target), options.folds_extensions());
       const AssetConversion result = convert_gltf(MemorySource(text), "file", options, &resources);
       const std::string after = converted_bytes(text, options, &resources);
       REQUIRE(require_others_kept(text, json_in(after), options) == result.count(MaterialState::kConverted));
@@ -399,7 +400,7 @@ TEST_CASE("Public files keep every byte but those of converted materials", "[ass
     const std::string bytes = read_file(entry.path());
     AssetOptions specgloss, folded;
     specgloss.target = AssetTarget::kSpecGloss;
-    folded.folds_specular = true;
+    folded.extensions = DielectricExtensions::kFolded;
     for (const AssetOptions& options : {AssetOptions(), specgloss, folded}) {
       const std::string after = converted_bytes(bytes, options);
       const AssetConversion result = result_of(bytes, options);  // tests/cli converts files with images

@@ -89,14 +89,14 @@ AssetOptions to_specgloss() {
 
 AssetOptions folding() {
   AssetOptions options;
-  options.folds_specular = true;
+  options.extensions = DielectricExtensions::kFolded;
   options.instructions = InstructionSet::kBaseline;
   return options;
 }
 
 AssetOptions exact_form() {
   AssetOptions options;
-  options.extensions = true;
+  options.extensions = DielectricExtensions::kWritten;
   options.instructions = InstructionSet::kBaseline;
   return options;
 }
@@ -274,13 +274,13 @@ TEST_CASE("What folding leaves alone", "[assets]") {
           kDielectrics)),
       "file", folding());
   CHECK(result.materials[0].failure ==
-        "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --fold-specular)");
+        "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --extensions fold)");
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.count(MaterialState::kUntouched) == 2);
   // Two materials still use KHR_materials_ior. Nothing uses the other extension any more, so it is removed.
   CHECK(result.text.find("\"KHR_materials_ior\"],") != std::string::npos);
   AssetOptions wrong = folding();
-  wrong.extensions = true;
+  wrong.target = AssetTarget::kSpecGloss;
   CHECK_THROWS_WITH(convert_gltf(MemorySource("{}"), "file", wrong),
                     Catch::Contains("only folded into core"));
 }

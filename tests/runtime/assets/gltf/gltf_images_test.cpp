@@ -179,7 +179,7 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
             .empty());
   CHECK(failure(R"("index":0)", R"("index":2)") ==
         "its diffuse image has 6x5 texels, its specular glossiness image 6x4 (use --resample, or "
-        "--extensions)");
+        "--extensions write)");
   CHECK(failure(R"("index":9)", R"("index":1)") == "refers to texture 9, but the file has 3 textures");
 }
 
@@ -258,7 +258,7 @@ TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
   small.bytes.resize(3 * 5 * 4);
   const std::string bytes = container_of({random_pixels(3, 1), small}, textured(kBoth));
   AssetOptions options = kCoreOptions;
-  options.enlarges = true;
+  options.resamples = true;
   const Reread after = reread(bytes, options);
   const ImagePixels data = after.image(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
   CHECK(data.width == 6);

@@ -26,7 +26,7 @@ AssetOptions specgloss_target() {
 
 AssetOptions with_fold() {
   AssetOptions options = kCoreOptions;
-  options.folds_specular = true;
+  options.extensions = DielectricExtensions::kFolded;
   return options;
 }
 
@@ -521,9 +521,9 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
   CHECK(
       failures_of(bytes).front() ==
       "its diffuse and specular glossiness textures have different KHR_texture_transform, and both decide on "
-      "metallic (use --bake, or --extensions)");
+      "metallic (use --resample, or --extensions write)");
   AssetOptions options = kCoreOptions;
-  options.bakes = true;
+  options.resamples = true;
   const PlainResources resources;
   const AssetConversion result = convert_gltf(MemorySource(bytes), "file", options, &resources);
   for (const std::string& warning : result.materials[0].warnings)
@@ -550,7 +550,7 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
   ImagePixels stripes = random_pixels(3, 1);
   const std::string scale = R"("extensions":{"KHR_texture_transform":{"scale":[2,2]}})";
   AssetOptions options = kCoreOptions;
-  options.bakes = true;
+  options.resamples = true;
   const PlainResources resources;
   const std::string bytes = container_of(
       {stripes, gold},
@@ -613,7 +613,7 @@ TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
                     offset + ",0]}}}");
   };
   AssetOptions options = kCoreOptions;
-  options.bakes = true;
+  options.resamples = true;
   const Reread after = reread(container_of({random_pixels(3, 1), random_pixels(4, 2)},
                                            material("0.5") + "," + material("0.25") + "," + material("0.50")),
                               options);

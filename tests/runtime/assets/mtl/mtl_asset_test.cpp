@@ -287,7 +287,7 @@ TEST_CASE("Maps that cannot be converted fail with a reason", "[assets]") {
   CHECK(failure("map_Kd d.png\nmap_Ks s.png\n") ==
         "s.png is 1x1, but d.png is 2x1 (--resample enlarges the smaller one)");
   AssetOptions enlarging;
-  enlarging.enlarges = true;
+  enlarging.resamples = true;
   CHECK(failure("map_Kd d.png\nmap_Ks s.png\n", enlarging).empty());
   CHECK(failure("map_Kd gone.png\n") == "gone.png: was not found (put it next to the MTL file)");
   CHECK(failure("map_Kd x.png\n") == "x.png: is no image");

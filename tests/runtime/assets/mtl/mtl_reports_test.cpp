@@ -55,7 +55,7 @@ Scene scene_of(const std::string& mtl, PlainResources resources = {}, const Asse
 
 AssetOptions with(bool extensions, std::optional<MtlMaker> maker = std::nullopt) {
   AssetOptions options;
-  options.extensions = extensions;
+  if (extensions) options.extensions = DielectricExtensions::kWritten;
   options.mtl_maker = maker;
   return options;
 }

@@ -50,7 +50,7 @@ MadeScene made(const std::string& obj, PlainResources resources = {}, const std:
   if (!mtl.empty()) resources.files["a.mtl"] = mtl;
   MadeScene scene;
   AssetOptions options;
-  options.extensions = extensions;
+  if (extensions) options.extensions = DielectricExtensions::kWritten;
   scene.conversion = gltf_of_obj(MemorySource(obj), "file.obj", options, resources);
   for (const AssetPiece& piece : scene.conversion.pieces) scene.bytes += piece.bytes;
   scene.container = read_container(MemorySource(scene.bytes), "made");
@@ -166,14 +166,16 @@ TEST_CASE("Materials by the short forms", "[assets]") {
   const MadeScene core = of_material(lines);
   CHECK(core.number(core.core()["roughnessFactor"]) == Approx(ggx_roughness(material)));
   CHECK(core.number(core.core()["metallicFactor"]) == 0.0);
-  CHECK(core.number(core.core()["baseColorFactor"].children()[0]) == Approx(0.64 + ggx_f0(material)[0] - 0.04));
+  CHECK(core.number(core.core()["baseColorFactor"].children()[0]) ==
+        Approx(0.64 + ggx_f0(material)[0] - 0.04));
   CHECK_FALSE(core.root()["extensionsUsed"]);
   const MadeScene exact = of_material(lines, {}, true);
   const SpanValue specular = exact.entry("materials", 0)["extensions"]["KHR_materials_specular"];
   CHECK(exact.number(specular["specularFactor"]) == Approx(ggx_f0(material)[0]));
   CHECK(exact.number(specular["specularColorFactor"].children()[0]) == Approx(25.0));
   CHECK(exact.number(specular["specularColorFactor"].children()[2]) == Approx(12.5));
-  CHECK(exact.number(exact.core()["baseColorFactor"].children()[0]) == Approx(0.64 / (1.0 - ggx_f0(material)[0])));
+  CHECK(exact.number(exact.core()["baseColorFactor"].children()[0]) ==
+        Approx(0.64 / (1.0 - ggx_f0(material)[0])));
   CHECK(exact.root()["extensionsUsed"].raw() == "[\"KHR_materials_specular\"]");
   const MadeScene matte = of_material("Kd .5 .5 .5\n", {}, true);
   CHECK(matte.number(matte.entry("materials", 0)["extensions"]["KHR_materials_specular"]["specularFactor"]) ==
