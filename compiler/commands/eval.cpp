@@ -60,7 +60,7 @@ void write_grid(const Fit& fit, const EvalOptions& options) {
 // Refuses a table of other models, because its errors would say nothing about the fit.
 void require_same_models(const Fit& fit, const Table& table) {
   const auto pair = [](const auto& ends) { return ends.source.model + " to " + ends.target.model; };
-  if (pair(table) != pair(fit))
+  if (!table.source.model.empty() && pair(table) != pair(fit))
     throw usage_error(table.name + ": is a table of " + pair(table) + ", but " + fit.id + " converts " +
                       pair(fit) + " (give a table of these models)");
 }

@@ -168,7 +168,7 @@ void list_workflows(const ListOptions& options) {
 }
 
 void print_names(const char* heading, std::span<const KnownName> names) {
-  constexpr std::size_t kTitle = 32, kWord = 16;
+  constexpr std::size_t kTitle = 32, kWord = 18;
   std::cout << heading << '\n';
   for (const auto& [title, word] : names) {
     const std::string model = model_named(std::string(word)).name;

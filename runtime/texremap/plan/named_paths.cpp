@@ -19,6 +19,8 @@ namespace {
 constexpr std::string_view kExport = "convert it to glTF or OBJ first, for example with Blender";
 constexpr std::string_view kTextures =
     "export its textures and convert their folder, or give values such as --roughness 0.3";
+constexpr std::string_view kMtlx =
+    "the Python package converts its materials: texremap mtlx FILE --to gltf -o out.glb";
 constexpr std::string_view kUsd = "the Python package converts its materials: texremap usd FILE";
 constexpr std::string_view kMujoco =
     "give its values instead: texremap convert --from mujoco --to gltf --roughness 64 --specular 0.2 "
@@ -64,7 +66,7 @@ constexpr std::array<UnreadFormat, 34> kUnread = {{
     {".mat", "Radiance, Unity or MATLAB", kRadiance},
     {".pov .inc", "POV-Ray", kModels},
     {".pbrt", "pbrt", kModels},
-    {".mtlx", "MaterialX", kTextures},
+    {".mtlx", "MaterialX", kMtlx},
     {".mdl", "MDL", kTextures},
     {".osl .oso", "OSL", kTextures},
     {".sbsar .sbs .spp .spsm", "Substance", kTextures},

@@ -154,12 +154,29 @@ std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>
   return notes;
 }
 
+namespace {
+
+bool has_subfolder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  const std::filesystem::directory_iterator begin(folder, failure), end;
+  return !failure && std::any_of(begin, end, [](const auto& entry) {
+    std::error_code ignored;
+    return entry.is_directory(ignored);
+  });
+}
+
+}  // namespace
+
 InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets) {
   const auto has = [&](Parameter parameter) { return options.map_of(parameter) != nullptr; };
   std::string model =
       model_of_maps(has(Parameter::kMetallic), has(Parameter::kBaseColor), has(Parameter::kSpecular),
                     options.reads_glossiness(), has(Parameter::kDiffuse));
   if (!sets) {
+    const auto is_given = [](const auto& map) { return map.second.has_value(); };
+    if (std::ranges::none_of(options.maps, is_given))
+      throw usage_error(
+          "no folder and no maps given (for example: texremap convert FOLDER --to unity -o out)");
     if (model.empty())
       throw usage_error("--from is required (the maps do not tell it; texremap list shows the names)");
     return {model, "--from is taken as " + model + ", which has these maps"};
@@ -177,6 +194,9 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     model = inferred;
     ++count;
   }
+  if (sets->sets.empty() && !options.recursive && has_subfolder(options.folder))
+    throw usage_error(display_path(options.folder) +
+                      ": contains no maps, only folders (add --recursive to convert these)");
   if (first.empty())
     throw usage_error(
         "--from is required, because the file names do not identify the source (texremap list shows the "

@@ -87,8 +87,8 @@ void require_success(const Outcome& outcome) {
         passing);
   }
   if (outcome.reports.empty() && !list.skipped.empty() && !outcome.plan.part)
-    throw input_error(std::to_string(list.skipped.size()) + of_all +
-                      "skipped, because there is nothing to convert in them");
+    throw input_error("no " + noun_of(list.kind) + " was converted (" +
+                      counted(list.skipped.size(), noun_of(list.kind)) + " skipped for the reason above)");
 }
 
 // Returns the name of a target parameter. Roughness is called by its encoding.
