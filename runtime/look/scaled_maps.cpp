@@ -36,7 +36,12 @@ void read_means(ImageReader& map, const std::vector<ScaledChannel>& channels, co
 
 ScaledMaps ScaledMaps::cells_of(int full_width, int full_height, int side) {
   const int step = std::max(1, std::max(full_width, full_height) / side);
-  return {std::max(1, full_width / step), std::max(1, full_height / step), RoughnessEncoding::kRoughness, {}};
+  return {std::max(1, full_width / step),
+          std::max(1, full_height / step),
+          RoughnessEncoding::kRoughness,
+          {},
+          full_width,
+          full_height};
 }
 
 void ScaledMaps::add_means(const ConstChannelView& band, const ParameterValues& values, std::size_t channel,
@@ -95,7 +100,8 @@ ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outsid
                     maps.rows.at(Parameter::kRoughness).front());
   MaterialRows<const float> in;
   MaterialRows<float> out;
-  ScaledMaps result{maps.width, maps.height, converter.info().target.roughness, {}};
+  ScaledMaps result{maps.width, maps.height,     converter.info().target.roughness,
+                    {},         maps.full_width, maps.full_height};
   for (const Parameter parameter : converter.sources()) {
     auto& rows = maps.rows.at(parameter);
     in[parameter].count = rows.size();

@@ -20,6 +20,7 @@ struct ScaledMaps {
   int width = 1, height = 1;
   RoughnessEncoding encoding = RoughnessEncoding::kRoughness;  // of the roughness
   std::map<Parameter, std::vector<std::vector<float>>> rows;
+  int full_width = 1, full_height = 1;  // of the maps before they were scaled down
 
   // Returns maps of zeros whose texels are cells of whole texels of `full_width` * `full_height`. They have
   // about `side` texels on the longer side.

@@ -175,6 +175,22 @@ TEST_CASE("texremap report: materials of MTL and OBJ files are shown by Blinn's 
   }
 }
 
+TEST_CASE("texremap report: large maps are shown smaller, with their own size beside") {
+  const Session session;
+  session.make("a_roughness.png", test_spec(2048, 8, {"Y"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 0.4f; });
+  session.make("a_specular.png", test_spec(2048, 8, {"Y"}, OIIO::TypeUInt8),
+               [](int, int, int) { return 0.2f; });
+  const auto data = reported(session, ". -o out --from mitsuba/ward --to mitsuba/as --dry-run");
+  for (const char* side : {"before", "after"})
+    for (const auto& map : data["materials"][0]["maps"][side]) {
+      CHECK(map["width"] == 2048);
+      CHECK(map["height"] == 8);
+      CHECK(map["shown_width"] == 1024);
+      CHECK(image_of(data, map["image"]).width == 1024);
+    }
+}
+
 TEST_CASE("texremap report: sixteen materials at most, and what is not shown is said", "[slow]") {
   const Session session;
   for (int i = 10; i < 28; ++i) write_metal(session, "set" + std::to_string(i));

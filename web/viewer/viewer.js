@@ -234,7 +234,7 @@ export class Viewer {
   async #fillMaps() {
     const { maps } = this.#material;
     const groups = await Promise.all([['Before', maps.before], ['After', maps.after]].map(async ([title, shown]) => {
-      const figures = await Promise.all(shown.map(async ({ name, image, width, height }) => {
+      const figures = await Promise.all(shown.map(async ({ name, image, width, height, shown_width: shownWidth }) => {
         const { counts, words } = histogram(await this.#images.of(image));
         const chart = made('canvas', { width: 128, height: 40, role: 'img', 'aria-label': `${name}: ${words}` });
         const picture = made('img', { src: this.#images.url(image), alt: `${name}, ${title.toLowerCase()}` });
@@ -242,7 +242,8 @@ export class Viewer {
         enlarge.addEventListener('click', () =>
           enlarge.setAttribute('aria-pressed', String(enlarge.parentElement.classList.toggle('large'))));
         const figure = made('figure', {}, enlarge, chart,
-          made('figcaption', {}, made('b', {}, name), ` ${width} × ${height}, ${words}`));
+          made('figcaption', {}, made('b', {}, name),
+            ` ${width} × ${height}${shownWidth < width ? `, shown ${shownWidth} wide` : ''}, ${words}`));
         return { figure, chart, counts };
       }));
       return { title, figures };

@@ -106,8 +106,9 @@ Json maps_json(const ScaledMaps& maps, PageImages& images) {
                                          is_scaled ? 1.0f / largest : 1.0f);
     list.push_back({{"name", name},
                     {"image", add_image(pixels, images)},
-                    {"width", maps.width},
-                    {"height", maps.height}});
+                    {"width", maps.full_width},
+                    {"height", maps.full_height},
+                    {"shown_width", maps.width}});
   }
   return list;
 }
