@@ -51,8 +51,7 @@ CoreTexts CoreMaker::of_factors(const GltfMaterial& material, AssetMaterial& rep
   const auto &color = material[color_of(workflow_)].factor,
              &other = material[other_color_of(workflow_)].factor;
   CoreTexts texts;
-  for (std::size_t c = 0; c < 3; ++c)
-    texts.base_color[c] = text_among(base[c], color[c], other[c]);
+  for (std::size_t c = 0; c < 3; ++c) texts.base_color[c] = text_among(base[c], color[c], other[c]);
   texts.base_color[3] = color[3].text;
   texts.metallic = factor_text(metallic, material[GltfInput::kMetallic].factor[0]);
   texts.roughness = factor_text(roughness, material[GltfInput::kRoughness].factor[0]);

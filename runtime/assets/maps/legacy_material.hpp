@@ -33,9 +33,9 @@ std::array<double, 3> ggx_f0(const LegacyMaterial& material);
 
 // Returns base color and metallic of core glTF that keep the sum of diffuse and specular:
 //   fraction of the dielectric f = min(1, 2 D / (S + D + sqrt((S + D)^2 - .16 D))), base = d + F0 - .04 f.
-// D and S are the means of diffuse and F0 over channels, and .04 is the F0 of a dielectric. A material without
-// a highlight gets base color = diffuse and roughness 1. Core cannot remove the F0 of .04. At roughness 1 this
-// F0 adds about as much light as the diffuse lobe loses, so bright colors stay.
+// D and S are the means of diffuse and F0 over channels, and .04 is the F0 of a dielectric. A material
+// without a highlight gets base color = diffuse and roughness 1. Core cannot remove the F0 of .04. At
+// roughness 1 this F0 adds about as much light as the diffuse lobe loses, so bright colors stay.
 MetalRoughFactors core_of_legacy(const LegacyMaterial& material);
 
 // A LegacyDielectric is glTF with KHR_materials_specular: metallic 0, and a specular whose F90 equals the

@@ -226,9 +226,10 @@ class MtlEditor {
       report.becomes = becomes_text_of(result, surface);
       if (result.roughness_map.empty() && result.metallic_map.empty() && result.base_file.empty() &&
           !result.keeps_map)
-        report.factors = {{"base_color", {result.factors.base_color.begin(), result.factors.base_color.end()}},
-                          {"metallic", {result.factors.metallic}},
-                          {"roughness", {result.factors.roughness}}};
+        report.factors = {
+            {"base_color", {result.factors.base_color.begin(), result.factors.base_color.end()}},
+            {"metallic", {result.factors.metallic}},
+            {"roughness", {result.factors.roughness}}};
       report.state = MaterialState::kConverted;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
@@ -300,9 +301,11 @@ class MtlEditor {
     if (!result.base_file.empty())
       text += "map";
     else
-      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") + color_text(result.factors.base_color);
+      text += (surface.diffuse_map && result.keeps_map ? "map_Kd times " : "") +
+              color_text(result.factors.base_color);
     text += ", metallic " + (result.metallic_map.empty() ? float_text_of(result.factors.metallic) : "map");
-    return text + ", roughness " + (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "map");
+    return text + ", roughness " +
+           (result.roughness_map.empty() ? float_text_of(result.factors.roughness) : "map");
   }
 
   const MtlDocument& document_;

@@ -90,8 +90,8 @@ MtlCover read_mtl_cover(const MtlDocument& document, const MtlBlock& block, MtlM
                         std::vector<std::string>& warnings);
 
 // Returns metallic and roughness of a surface as numbers. If one of them has a map, its number is 1, and the
-// number in the file is ignored. If `is_core` is set, the target adds a highlight to dielectrics. A dielectric
-// without a highlight then becomes rough.
+// number in the file is ignored. If `is_core` is set, the target adds a highlight to dielectrics. A
+// dielectric without a highlight then becomes rough.
 MetalRoughFactors metal_rough_of(const MtlSurface& surface, bool is_core);
 
 // Returns the factors of a surface, which multiply its maps. Without a highlight, specular is black. Fills in
