@@ -30,8 +30,8 @@ struct Limits {
   bool operator==(const Limits&) const = default;
 };
 
-// A PictureErrors states how much pictures differ from the source's pictures. Materials and lights are others
-// than those of the fit (compiler/lights/pair_pictures.hpp).
+// A PictureErrors states how much pictures differ from the source's pictures. The fit did not use
+// these materials and lights (compiler/lights/pair_pictures.hpp).
 struct PictureErrors {
   double rmse = 0.0;      // RMSE of display values under environments, in percent of the display's range
   double relative = 0.0;  // error of linear radiance under a point light, relative to the RMS of the source
@@ -95,8 +95,8 @@ struct Fit {
   // source and target at the best parameters, by source alpha, if spheres were compared.
   std::optional<ErrorFigures> image_error;
   std::map<double, double> ssim;
-  // These are errors of pictures with converted numbers, and with copied ones. If the built-in renderer lacks
-  // one of the models, there are none.
+  // These are errors of pictures with converted numbers, and with copied ones. They are unset if the built-in
+  // renderer lacks one of the models.
   std::optional<PictureErrors> pictures, copied_pictures;
   std::vector<std::string> remarks;  // lines of the model card: sources, errata, limits of the pair
   Split split;

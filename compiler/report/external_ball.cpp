@@ -13,10 +13,6 @@ namespace {
 // Texels that are out of range by less than this fraction of the range get no note, because nobody sees it.
 constexpr double kUnseenExcess = 0.005;
 
-void add_note(std::vector<std::string>& notes, std::string note) {
-  if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
-}
-
 // Sets a parameter of a material to a map of `value(texel)`, in the range that the model accepts.
 void set_map(const ModelDescription& model, ParameterRole role, const TexturedBall& ball,
              const std::function<Rgb(const BallTexel&)>& value, Material& material,
@@ -60,6 +56,10 @@ Material dark_material(const ModelDescription& model) {
 }
 
 }  // namespace
+
+void add_note(std::vector<std::string>& notes, std::string note) {
+  if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+}
 
 const ModelDescription* diffuse_model(const std::vector<ModelDescription>& models) {
   const auto found = std::ranges::find_if(models, [](const ModelDescription& model) {

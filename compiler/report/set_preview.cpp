@@ -45,10 +45,8 @@ class BallStudio {
     std::vector<std::vector<float>> shaded =
         own.empty() ? std::vector<std::vector<float>>{}
                     : shade(own, own.size() == balls.size() ? normals : Image(), progress);
-    const std::string flat = "normal maps are not shown, because they are not passed to other renderers";
-    if (own.size() < balls.size() && !normals.values.empty() &&
-        std::ranges::find(notes_, flat) == notes_.end())
-      notes_.push_back(flat);
+    if (own.size() < balls.size() && !normals.values.empty())
+      add_note(notes_, "normal maps are not shown, because they are not passed to other renderers");
     std::vector<std::vector<float>> pictures;
     auto next = shaded.begin();
     for (const TexturedBall& ball : balls)

@@ -9,7 +9,7 @@
 #include "assets/maps/map_pixels.hpp"
 #include "core/errors.hpp"
 #include "core/json_spans.hpp"
-#include "look/asset_looks.hpp"
+#include "look/asset_reader.hpp"
 
 namespace remap {
 namespace {
@@ -61,9 +61,9 @@ class GltfReader final : public AssetReader {
     if (pixels.is_grey()) return {};
     SourceParameter stored = color_source(&pixels, {1.0, 1.0, 1.0}, "normal");
     stored.transfer = Transfer::kLinear;
-    const auto width = static_cast<int>(pixels.width), height = static_cast<int>(pixels.height);
-    ScaledMaps scaled = ScaledMaps::cells_of(width, height, side);
-    add_rows(stored, Parameter::kDiffuse, width, height, scaled);  // counts as a color
+    const ScaledMaps scaled =  // the stored values count as a color
+        scaled_maps({{Parameter::kDiffuse, stored}}, pixels.width, pixels.height,
+                    RoughnessEncoding::kRoughness, side);
     return normals_of(scaled.rows.at(Parameter::kDiffuse), scaled.width, material.number(GltfInput::kNormal),
                       NormalGreen::kUp);
   }
@@ -79,20 +79,16 @@ class GltfReader final : public AssetReader {
     GltfMaterial material = read_material(text, workflow, ignored);
     const std::optional<UsedTextures> used =
         used_textures(&textures_, material, inputs_of(workflow), {"the picture", ""}, ignored);
-    ScaledMaps maps;
     if (!used) {
+      ScaledMaps maps;
       for (const auto& [parameter, values] : values_of(workflow, material))
         for (const float value : values) maps.rows[parameter].push_back({value});
       return maps;
     }
     const GltfMaps read(workflow, material, *used);
     const ImagePixels& model = *read.sources.color_model;
-    const auto width = static_cast<int>(model.width), height = static_cast<int>(model.height);
-    maps = ScaledMaps::cells_of(width, height, side);
-    maps.encoding = *read.sources.conversion.source_convention;
-    for (const auto& [parameter, source] : read.sources.conversion.sources)
-      add_rows(source, parameter, width, height, maps);
-    return maps;
+    const MapConversion& conversion = read.sources.conversion;
+    return scaled_maps(conversion.sources, model.width, model.height, *conversion.source_convention, side);
   }
 
   TexturedBall ball(const ShownModel& model, GltfWorkflow workflow, ScaledMaps maps) const {

@@ -8,21 +8,12 @@
 #include "assets/mtl/mtl_material.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"
-#include "look/asset_looks.hpp"
+#include "look/asset_reader.hpp"
 
 namespace remap {
 namespace {
 
 constexpr const char* kLegacyModel = "legacy/blinn-phong";
-
-// Returns the maps of the sources, whose textures have the size of `model`. Without a texture, it is null.
-ScaledMaps scaled(const std::map<Parameter, SourceParameter>& sources, const ImagePixels* model, int side) {
-  const int width = model == nullptr ? 1 : static_cast<int>(model->width),
-            height = model == nullptr ? 1 : static_cast<int>(model->height);
-  ScaledMaps maps = ScaledMaps::cells_of(width, height, side);
-  for (const auto& [parameter, source] : sources) add_rows(source, parameter, width, height, maps);
-  return maps;
-}
 
 class MtlReader final : public AssetReader {
  public:
@@ -59,6 +50,13 @@ class MtlReader final : public AssetReader {
     return *entry;
   }
 
+  // Textures have the size of `model`. It is null if all sources are constants.
+  static ScaledMaps scaled_to(int side, const std::map<Parameter, SourceParameter>& sources,
+                              const ImagePixels* model, RoughnessEncoding encoding) {
+    return model == nullptr ? scaled_maps(sources, 1, 1, encoding, side)
+                            : scaled_maps(sources, model->width, model->height, encoding, side);
+  }
+
   static ScaledMaps legacy_maps_of(const MtlSurface& surface, MtlImages& images, int side) {
     std::vector<std::string> ignored;
     AssetOptions tolerant;
@@ -69,9 +67,7 @@ class MtlReader final : public AssetReader {
     const ImagePixels* model = nullptr;
     for (const auto& pixels : {loaded.diffuse, loaded.specular, loaded.exponent})
       if (pixels != nullptr) model = pixels.get();
-    ScaledMaps maps = scaled(sources, model, side);
-    maps.encoding = RoughnessEncoding::kExponent;
-    return maps;
+    return scaled_to(side, sources, model, RoughnessEncoding::kExponent);
   }
 
   static ScaledMaps metal_rough_maps_of(const MtlSurface& surface, MtlImages& images, int side) {
@@ -91,7 +87,8 @@ class MtlReader final : public AssetReader {
     sources[Parameter::kMetallic] = value_source(load(surface.metallic_map), 0, factors.metallic, "metallic");
     sources[Parameter::kRoughness] =
         value_source(load(surface.roughness_map), 0, factors.roughness, "roughness");
-    return scaled(sources, loaded.empty() ? nullptr : loaded.front().get(), side);
+    return scaled_to(side, sources, loaded.empty() ? nullptr : loaded.front().get(),
+                     RoughnessEncoding::kRoughness);
   }
 
   MtlLibraries libraries_;           // of an OBJ file

@@ -32,6 +32,24 @@ void read_means(ImageReader& map, const std::vector<ScaledChannel>& channels, co
   }
 }
 
+// Fills the rows of a parameter from a map of `width` * `height` texels, or from constants.
+void add_rows(const SourceParameter& source, Parameter parameter, int width, int height, ScaledMaps& scaled) {
+  const int across = width / scaled.width, down = height / scaled.height;
+  auto& rows = scaled.rows[parameter];
+  rows.assign(is_color(parameter) ? 3 : 1, std::vector<float>(scaled.count()));
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    if (source.channels.empty()) {
+      const std::size_t own = std::min(c, source.constants.size() - 1);
+      std::ranges::fill(rows[c], source.constants[own] * source.factor(own));
+      continue;
+    }
+    const std::size_t own = std::min(c, source.channels.size() - 1);
+    ConstChannelView band = source.channels[own];
+    for (int row = 0; row < scaled.height; ++row, band.first += down * band.row_stride)
+      scaled.add_means(band, source, own, across, down, row, rows[c]);
+  }
+}
+
 }  // namespace
 
 ScaledMaps ScaledMaps::cells_of(int full_width, int full_height, int side) {
@@ -78,21 +96,13 @@ ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side) {
   return scaled;
 }
 
-void add_rows(const SourceParameter& source, Parameter parameter, int width, int height, ScaledMaps& scaled) {
-  const int across = width / scaled.width, down = height / scaled.height;
-  auto& rows = scaled.rows[parameter];
-  rows.assign(is_color(parameter) ? 3 : 1, std::vector<float>(scaled.count()));
-  for (std::size_t c = 0; c < rows.size(); ++c) {
-    if (source.channels.empty()) {
-      const std::size_t own = std::min(c, source.constants.size() - 1);
-      std::ranges::fill(rows[c], source.constants[own] * source.factor(own));
-      continue;
-    }
-    const std::size_t own = std::min(c, source.channels.size() - 1);
-    ConstChannelView band = source.channels[own];
-    for (int row = 0; row < scaled.height; ++row, band.first += down * band.row_stride)
-      scaled.add_means(band, source, own, across, down, row, rows[c]);
-  }
+ScaledMaps scaled_maps(const std::map<Parameter, SourceParameter>& sources, std::size_t width,
+                       std::size_t height, RoughnessEncoding encoding, int side) {
+  const auto columns = static_cast<int>(width), rows = static_cast<int>(height);
+  ScaledMaps scaled = ScaledMaps::cells_of(columns, rows, side);
+  scaled.encoding = encoding;
+  for (const auto& [parameter, source] : sources) add_rows(source, parameter, columns, rows, scaled);
+  return scaled;
 }
 
 ScaledMaps converted(const Converter& converter, ScaledMaps maps, double* outside) {

@@ -36,8 +36,9 @@ struct ScaledMaps {
 // cannot be read.
 ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side);
 
-// Fills the rows of a parameter from a map of `width` * `height` texels, or from constants.
-void add_rows(const SourceParameter& source, Parameter parameter, int width, int height, ScaledMaps& scaled);
+// Scales sources down, each of which is constants or a map of `width` * `height` texels.
+ScaledMaps scaled_maps(const std::map<Parameter, SourceParameter>& sources, std::size_t width,
+                       std::size_t height, RoughnessEncoding encoding, int side);
 
 // Converts all texels. The result has the encoding of the converter. `outside`, if not null, receives the
 // fraction of texels outside of the converter's domain.

@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// A PlannedFile is a result. A copy has a source. Its parts are those of a result that repeats the source, or
-// none for a file that is not converted.
+// A PlannedFile is a result. A copy has a source. It has parts if the conversion would repeat the source, and
+// no parts if the source is not converted.
 struct PlannedFile {
   std::filesystem::path path;
   std::vector<TargetPart> parts;

@@ -87,9 +87,8 @@ struct BuiltConversion {
   std::unique_ptr<Converter> owned_brdf = {};  // set if `brdf` does not belong to the graph
   const Converter* brdf = nullptr;             // for width and specular; null if both ends share a BRDF
   ConverterPath path = {};                     // the steps of `brdf`
-  std::optional<ConverterPath> closer =
-      {};  // path to a model that matches the highlight more closely (path.hpp)
-  std::unique_ptr<Converter> material = {};  // for whole materials; null if only width and specular change
+  std::optional<ConverterPath> closer = {};    // to a model that matches the highlight more closely
+  std::unique_ptr<Converter> material = {};    // for whole materials; null if only width and specular change
 
   // Returns the converter for the whole conversion.
   const Converter& converter() const noexcept { return material ? *material : *brdf; }

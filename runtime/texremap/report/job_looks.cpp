@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/errors.hpp"
-#include "look/asset_looks.hpp"
+#include "look/asset_reader.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"
@@ -75,8 +75,9 @@ bool has_same_parameters(const ConversionChoice& workflow) {
 
 JobLooks::JobLooks(const ConvertPlan& plan, const ModelTest& before, const ModelTest& after)
     : plan_(plan),
-      source_(source_brdf(plan), shown_graph(plan), before),
-      target_(target_brdf(plan), shown_graph(plan), after) {
+      graph_(shown_graph(plan)),
+      source_(source_brdf(plan), graph_, before),
+      target_(target_brdf(plan), graph_, after) {
   const auto note = [&](const std::string& model, const ShownModel& shown) {
     const std::string of = is_linear_lobe(shown.name()) ? "the closest built-in model"
                                                         : "the closest model of " + renderer_of(shown.name());
@@ -136,7 +137,19 @@ std::vector<MaterialLooks> JobLooks::of_asset(const AssetWork& asset, int side, 
   };
   const auto before = reader({source, context, files}, asset.input),
              after = reader({bytes, context, result_files}, asset.output);
-  return asset_looks(*before, *after, source_, target_, conversion.materials, side, most);
+  std::vector<MaterialLooks> looks;
+  for (const AssetMaterial& material : conversion.materials) {
+    if (material.state != MaterialState::kConverted || looks.size() == most) continue;
+    MaterialLooks& shown = looks.emplace_back();
+    shown.name = material.name.empty() ? "material " + std::to_string(material.index) : material.name;
+    shown.normals = before->normals(material, side);
+    shown.before = before->maps(material, side);
+    shown.after = after->maps(material, side);
+    shown.source = before->ball(material, source_, shown.before);
+    shown.converted = after->ball(material, target_, shown.after);
+    shown.copied = before->without_extensions(material, target_, side);
+  }
+  return looks;
 }
 
 }  // namespace remap

@@ -29,6 +29,7 @@ class JobLooks {
   std::vector<MaterialLooks> of_asset(const AssetWork& asset, int side, std::size_t most) const;
 
   const ConvertPlan& plan_;
+  const ConverterGraph graph_;
   const ShownModel source_, target_;
   std::vector<std::string> notes_;
 };

@@ -1,10 +1,9 @@
-// This file shows the materials of assets before and after a conversion.
+// This file reads materials of assets as maps and balls.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "assets/document/asset.hpp"
 #include "look/material_looks.hpp"
@@ -38,11 +37,5 @@ std::unique_ptr<AssetReader> gltf_reader(const AssetFile& file);
 // Reads the materials of an MTL file, or of the MTL files that an OBJ file names. Materials of the
 // specification are shown by unnormalised Blinn (legacy/blinn-phong), materials with Pr and Pm like glTF.
 std::unique_ptr<AssetReader> mtl_reader(const AssetFile& file, std::optional<MtlMaker> maker, bool is_obj);
-
-// Returns the first `most` materials that a conversion changed, as both files describe them. `before` and
-// `after` show GGX with F0.
-std::vector<MaterialLooks> asset_looks(AssetReader& source, AssetReader& result, const ShownModel& before,
-                                       const ShownModel& after, const std::vector<AssetMaterial>& materials,
-                                       int side, std::size_t most);
 
 }  // namespace remap
