@@ -87,6 +87,12 @@ void add_converter(Fit* fit, double tolerance) {
   ConverterData converter = lower(*fit, tolerance);
   converter.info = info_of(*fit, converter.form);
   converter.golden = golden_texels(*fit, converter.alpha_bound, converter.specular_bound);
+  // Texels beyond the domain may reach a limit that no texel inside it reaches.
+  const auto reaches_limit = [&](const GoldenTexel& texel) {
+    return fit->limits.specular && texel.specular_out >= static_cast<float>(*fit->limits.specular);
+  };
+  if (std::ranges::any_of(converter.golden, reaches_limit))
+    converter.form.specular_limit = static_cast<float>(*fit->limits.specular);
   fit->converter = std::move(converter);
 }
 

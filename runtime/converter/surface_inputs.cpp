@@ -157,15 +157,17 @@ const Tables& tables() {
   return all;
 }
 
-constexpr NamedValues<Parameter, 9> kParameters = {{{Parameter::kRoughness, "width"},
-                                                    {Parameter::kSpecular, "specular"},
-                                                    {Parameter::kDiffuse, "diffuse"},
-                                                    {Parameter::kBaseColor, "base_color"},
-                                                    {Parameter::kMetallic, "metallic"},
-                                                    {Parameter::kMetalMask, "metal_mask"},
-                                                    {Parameter::kResidual, "residual"},
-                                                    {Parameter::kMetallicUncertainty, "metallic_uncertainty"},
-                                                    {Parameter::kMetallicIssues, "issues"}}};
+constexpr NamedValues<Parameter, 10> kParameters = {
+    {{Parameter::kRoughness, "width"},
+     {Parameter::kSpecular, "specular"},
+     {Parameter::kDiffuse, "diffuse"},
+     {Parameter::kBaseColor, "base_color"},
+     {Parameter::kMetallic, "metallic"},
+     {Parameter::kMetalMask, "metal_mask"},
+     {Parameter::kOcclusion, "occlusion"},
+     {Parameter::kResidual, "residual"},
+     {Parameter::kMetallicUncertainty, "metallic_uncertainty"},
+     {Parameter::kMetallicIssues, "issues"}}};
 
 const SurfaceInput& named_input(Parameter parameter) {
   return tables()
@@ -187,7 +189,8 @@ std::vector<Parameter> parameters_of(Surface surface) {
 }
 
 std::optional<Parameter> parameter_named(std::string_view name) {
-  constexpr std::array kOfWorkflows = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kMetalMask};
+  constexpr std::array kOfWorkflows = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kMetalMask,
+                                       Parameter::kOcclusion};
   for (const Parameter parameter : kOfWorkflows)
     if (parameter_name(parameter) == name) return parameter;
   if (name == "glossiness") return Parameter::kRoughness;
@@ -198,8 +201,8 @@ std::optional<Parameter> parameter_named(std::string_view name) {
 }
 
 std::vector<std::string> parameter_names() {
-  std::vector<std::string> names = {"roughness",  "glossiness", "specular",  "diffuse",
-                                    "base_color", "metallic",   "metal_mask"};
+  std::vector<std::string> names = {"roughness",  "glossiness", "specular",   "diffuse",
+                                    "base_color", "metallic",   "metal_mask", "occlusion"};
   for (const SurfaceInput& input : tables().named) names.emplace_back(input.name);
   for (const SameInput& same : kSame)
     if (parameter_named(same.name)) names.emplace_back(same.name);
@@ -220,7 +223,8 @@ std::string plain_name(Parameter parameter) {
 }
 
 std::string parameter_option(Parameter parameter) {
-  if (is_input(parameter) || parameter == Parameter::kMetalMask) return "--input " + plain_name(parameter);
+  if (is_input(parameter) || parameter == Parameter::kMetalMask || parameter == Parameter::kOcclusion)
+    return "--input " + plain_name(parameter);
   std::string option = "--" + plain_name(parameter);
   std::replace(option.begin(), option.end(), '_', '-');
   return option;

@@ -1,4 +1,4 @@
-#include <array>
+#include <list>
 
 #include "assets/gltf/gltf_workflow.hpp"
 #include "assets/maps/legacy_maps.hpp"
@@ -81,12 +81,18 @@ class MtlReader final : public AssetReader {
         throw input_error("its maps differ in size, so it is not shown");
       return loaded.back().get();
     };
+    std::list<ImagePixels> scalars;
+    const auto load_scalar = [&](const std::optional<MtlMap>& map) -> const ImagePixels* {
+      const ImagePixels* pixels = load(map);
+      return pixels == nullptr ? nullptr : &scalars.emplace_back(scalar_map(*pixels, map->channel));
+    };
     std::map<Parameter, SourceParameter> sources;
     sources[Parameter::kBaseColor] =
         color_source(load(surface.diffuse_map), factors.base_color, "base color");
-    sources[Parameter::kMetallic] = value_source(load(surface.metallic_map), 0, factors.metallic, "metallic");
+    sources[Parameter::kMetallic] =
+        value_source(load_scalar(surface.metallic_map), 0, factors.metallic, "metallic");
     sources[Parameter::kRoughness] =
-        value_source(load(surface.roughness_map), 0, factors.roughness, "roughness");
+        value_source(load_scalar(surface.roughness_map), 0, factors.roughness, "roughness");
     return scaled_to(side, sources, loaded.empty() ? nullptr : loaded.front().get(),
                      RoughnessEncoding::kRoughness);
   }

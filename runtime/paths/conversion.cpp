@@ -81,7 +81,7 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
 std::string target_named(const ConversionRequest& request, const NamedEnd& from) {
   const std::string& to = request.target.name;
   const bool is_model = to.find('/') != std::string::npos || find_workflow_model(to) != nullptr;
-  if (request.uses_fit_file || from.name.empty() || is_model) return to;
+  if (from.name.empty() || is_model) return to;
   const ConverterGraph& graph = *from.graph;
   const std::string source = from.workflow().brdf;
   if (graph.has_model(to) || graph.models_of(to).empty()) return to;
@@ -124,7 +124,7 @@ bool is_hub(Surface surface) { return surface == Surface::kOpenPbr || surface ==
 // Sets the translation between surfaces if the request asks for one.
 void choose_translation(const ConversionRequest& request, ConversionChoice& choice) {
   const auto source = surface_of(request.source), target = surface_of(request.target);
-  if (!request.translates_surfaces || request.uses_fit_file || !source || !target || *source == *target ||
+  if (!request.translates_surfaces || !source || !target || *source == *target ||
       (!is_hub(*source) && !is_hub(*target)))
     return;
   const auto name = [](WorkflowEnd& end, Surface surface) {
@@ -224,10 +224,8 @@ bool ConversionChoice::has_source(Parameter parameter) const {
 
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {
   const ConversionWords& words = request.words;
-  if (!request.uses_fit_file) {
-    if (!request.source.empty()) require_known(words.source, request.source.name, graph, words.all_names);
-    if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
-  }
+  if (!request.source.empty()) require_known(words.source, request.source.name, graph, words.all_names);
+  if (!request.target.empty()) require_known(words.target, request.target.name, graph, words.all_names);
   const NamedEnd from = named_end(request.source.name, request.source.workflow, words.source, graph);
   if (!from.name.empty()) require_via(request, graph, from.workflow().brdf, "");
   const std::string target = target_named(request, from);
@@ -283,15 +281,6 @@ BuiltConversion with_material(BuiltConversion conversion, InstructionSet set) {
 }
 
 }  // namespace
-
-BuiltConversion build_conversion(ConversionChoice choice, std::unique_ptr<Converter> brdf) {
-  const InstructionSet set = brdf->info().instructions;
-  BuiltConversion conversion{std::move(choice)};
-  conversion.owned_brdf = std::move(brdf);
-  conversion.brdf = conversion.owned_brdf.get();
-  conversion.path = {{conversion.brdf}, expected_error(conversion.brdf->info())};
-  return with_material(std::move(conversion), set);
-}
 
 BuiltConversion build_conversion(ConversionChoice chosen, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set) {

@@ -24,6 +24,8 @@ FittedConverter fitted_converter_from_json(std::string_view text, const std::str
   return *converter;
 }
 
+bool is_converter_list(std::string_view text) { return text.find("\"remap-converters\"") < 64; }
+
 FittedConverter load_fitted_converter(const std::filesystem::path& path) {
   return fitted_converter_from_json(read_file(path), path.string());
 }

@@ -21,6 +21,9 @@ using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;
 // file, and for a fit without a converter.
 FittedConverter fitted_converter_from_json(std::string_view text, const std::string& context);
 
+// Returns true for the text of a converters.json, which is not a fit.
+bool is_converter_list(std::string_view text);
+
 // Reads the converter in the fit file `path`. Throws kInput if it cannot be read.
 FittedConverter load_fitted_converter(const std::filesystem::path& path);
 

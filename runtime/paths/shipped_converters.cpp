@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Ignores fits of whole materials and warps, which need --fit.
+// Ignores warps and fits of whole materials, which no path contains.
 void add_fit(FittedConverter fit, std::vector<ConverterData>* converters) {
   if (auto* data = std::get_if<ConverterData>(&fit)) converters->push_back(std::move(*data));
 }
@@ -34,7 +34,7 @@ std::vector<ConverterData> read_data(const fs::path& path) {
     return converters;
   }
   const std::string text = read_file(path);
-  if (text.find("\"remap-converters\"") < 64) return converters_from_json(text, path.string());
+  if (is_converter_list(text)) return converters_from_json(text, path.string());
   add_fit(fitted_converter_from_json(text, path.string()), &converters);
   return converters;
 }

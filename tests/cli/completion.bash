@@ -20,7 +20,7 @@ expect() {
 expect "texremap " "convert check list path index plan merge-reports --version -h --help"
 expect "remapc re" "render renderers"
 expect "texremap convert --recur" "--recursive"
-expect "texremap convert --type " "uint8 uint16 half float"
+expect "texremap convert --type " "uint8 uint8-dithered uint16 half float"
 expect "texremap convert --type = h" "half"
 expect "texremap convert --layout = " "as-inputs separate orm arm specgloss gltf unity unity-hdrp unreal godot threejs blender usd marmoset"
 expect "texremap convert --to mitsuba/ward-" "mitsuba/ward-balanced mitsuba/ward-duer"

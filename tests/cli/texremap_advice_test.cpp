@@ -418,7 +418,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
          s.gltf(plain_asset);
          require_success(s.texremap(asset));
        }},
-      {"--root", asset, asset + " --root .",
+      {"before the asset", asset, "convert . in/a.gltf --to gltf -o out",
        [=](S s) {
          s.map("x.png", color);
          s.gltf(plain_asset, {"../x.png"});

@@ -130,9 +130,9 @@ TEST_CASE("texremap: a workflow is compared with the models of its own renderer"
   CHECK(own.output.starts_with("mitsuba/ggx is the closest model of mitsuba\ngltf: "));
 }
 
-TEST_CASE("texremap convert: --fit is judged by its own pictures") {
+TEST_CASE("texremap convert: a fit is judged by its own pictures") {
   const Session session;
-  const ProcessResult result = require_success(session.texremap("convert --fit " REMAP_SOURCE_DIR
+  const ProcessResult result = require_success(session.texremap("convert --converters " REMAP_SOURCE_DIR
                                                                 "/fits/mitsuba_ward_to_mitsuba_ggx.json"
                                                                 " --roughness 0.3 --specular 0.04"));
   CHECK_THAT(result.errors, Contains(measured_text("mitsuba_ward_to_mitsuba_ggx")) && !Contains(kCloser));

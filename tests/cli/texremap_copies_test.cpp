@@ -43,7 +43,7 @@ TEST_CASE("texremap copies: base color of any size is copied under its name") {
   const ProcessResult result = require_success(
       convert_copies(session,
                      "--roughness in/wood_Roughness.png --specular 0.04 --only roughness --base-color "
-                     "in/wood_BaseColor.png --occlusion in/wood_AmbientOcclusion.png --json"));
+                     "in/wood_BaseColor.png --input occlusion=in/wood_AmbientOcclusion.png --json"));
   CHECK(session.file_count() == 3);
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/wood_BaseColor.png"));
   CHECK(same_bytes(session, "in/wood_AmbientOcclusion.png", "out/wood_AmbientOcclusion.png"));
@@ -67,7 +67,7 @@ TEST_CASE("texremap copies: specgloss writes separate files for parameters witho
   write_set(session, "in");
   require_success(
       convert_copies(session,
-                     "--roughness in/wood_Roughness.png --specular in/wood_Specular.png --occlusion "
+                     "--roughness in/wood_Roughness.png --specular in/wood_Specular.png --input occlusion="
                      "in/wood_AmbientOcclusion.png --metallic 0.5 --layout specgloss"));
   CHECK(session.file_count() == 3);
   const TestImage occlusion = session.image("in/wood_AmbientOcclusion.png"),
@@ -121,7 +121,7 @@ TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
   }
   require_success(
       convert_copies(session,
-                     "--roughness r.<UDIM>.png --specular 0.04 --occlusion ao.<UDIM>.png --diffuse "
+                     "--roughness r.<UDIM>.png --specular 0.04 --input occlusion=ao.<UDIM>.png --diffuse "
                      "d.<UDIM>.png --layout orm"));
   CHECK(same_bytes(session, "d.1002.png", "out/diffuse.1002.png"));
   CHECK(session.image("out/orm.1002.png").at(2, 3, 0) == session.image("ao.1002.png").at(2, 3, 0));

@@ -25,7 +25,7 @@ std::vector<float> channel(const Session& session, const std::string& name, int 
 }
 
 Words packed(const std::string& path) {
-  return "--roughness " + path + ":G --occlusion " + path + ":R --metallic " + path + ":B --specular 0.4";
+  return "--roughness " + path + ":G --input occlusion=" + path + ":R --metallic " + path + ":B --specular 0.4";
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   // The maps are packed again and converted to another model. Then as-inputs keeps that layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
-                          "--roughness " + named("apart/roughness") + " --occlusion " +
+                          "--roughness " + named("apart/roughness") + " --input occlusion=" +
                               named("apart/occlusion") + " --metallic " + named("apart/metallic") +
                               " --specular 0.4 --layout " + layout,
                           "packed"));
@@ -241,7 +241,7 @@ TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
   const OIIO::ImageSpec spec = test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   session.make("in/wood_mine.png", spec, noise);
   const Words words = Words("convert in --to gltf --layout unity -o out --roughness") +
-                      Words(std::vector<std::string>{"*_mine.png:B", "--occlusion", "*_mine.png:R"});
+                      Words(std::vector<std::string>{"*_mine.png:B", "--input", "occlusion=*_mine.png:R"});
   require_success(session.texremap(words));
   CHECK(channel(session, "out/wood_MetallicSmoothness.png", 3) ==
         complement(channel(session, "in/wood_mine.png", 2)));

@@ -87,7 +87,7 @@ struct Batch {
   Words words() const {
     Words all;
     if (from.kind == Kind::kBrdf)
-      all = "--fit " + kPaperFit;
+      all = "--converters " + kPaperFit;
     else
       all = "--from " + from.name + " --to " + to.name;
     const auto add = [&](const std::string& option, const std::string& value) {
@@ -537,7 +537,7 @@ void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
   const Material& given = set.materials.front();
   Words words = "convert --json";
   if (batch.from.kind == Kind::kBrdf)
-    words += "--fit " + kPaperFit;
+    words += "--converters " + kPaperFit;
   else
     words += "--from " + batch.from.name + " --to " + batch.to.name;
   words.insert(words.end(),

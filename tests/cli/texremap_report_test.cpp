@@ -175,6 +175,19 @@ TEST_CASE("texremap report: materials of MTL and OBJ files are shown by Blinn's 
   }
 }
 
+TEST_CASE("texremap report: maps of an MTL file are shown by the channels that -imfchan names") {
+  const Session session;
+  session.make("orm.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [](int, int, int c) {
+    return c == 0 ? 1.0f : c == 1 ? 0.4f : 0.0f;
+  });
+  write_file(session.path("a.mtl"),
+             "newmtl a\nKd 0.5 0.5 0.5\nmap_Pr -imfchan g orm.png\nmap_Pm -imfchan b orm.png\n");
+  write_file(session.path("a.obj"),
+             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  const auto data = reported(session, "a.obj --to gltf -o a.glb");
+  CHECK(data["materials"][0]["looks"].back()["rms"].get<double>() < 0.02);
+}
+
 TEST_CASE("texremap report: large maps are shown smaller, with their own size beside") {
   const Session session;
   session.make("a_roughness.png", test_spec(2048, 8, {"Y"}, OIIO::TypeUInt8),

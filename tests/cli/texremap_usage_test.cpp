@@ -33,12 +33,12 @@ TEST_CASE("texremap: --quiet prints nothing") {
   CHECK(result.output.empty());
 }
 
-TEST_CASE("texremap: --fit evaluates that fit") {
+TEST_CASE("texremap: a fit as --converters names its models") {
   const Session session;
   session.write_pair("exr");
   const Fit fit = lowered_fit(example_fit());
   write_file(session.path("fit.json"), fit_to_json(fit));
-  require_success(session.texremap("convert --fit fit.json --roughness r.exr --specular s.exr -o out"));
+  require_success(session.texremap("convert --converters fit.json --roughness r.exr --specular s.exr -o out"));
   const TestImage in = session.image("r.exr"), out = session.image("out/r.exr");
   CHECK(out.spec.get_string_attribute("remap:converter") == fit.id);
   const auto converter = make_lowered_converter(fit);
@@ -75,15 +75,14 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   const Words numbers =
       "convert --from " + fit.source.model + " --to " + fit.target.model + " --roughness 0.25 --specular 0.3";
   CHECK(session.texremap(numbers).exit_code == 2);
-  const ProcessResult converted = require_success(session.texremap(numbers + "--converters fits"));
-  CHECK(session.texremap(numbers + "--fit fits/fit.json").output == converted.output);
+  require_success(session.texremap(numbers + "--converters fits"));
 }
 
 TEST_CASE("texremap: a fit without a converter is refused with what to run") {
   const Session session;
   const auto refused = [&](const std::string& json) {
     write_file(session.path("fit.json"), json);
-    const ProcessResult result = session.texremap("convert --fit fit.json --roughness 0.25 --specular 0.3");
+    const ProcessResult result = session.texremap("convert --converters fit.json --roughness 0.25 --specular 0.3");
     CHECK(result.exit_code == 1);
     return result.errors;
   };

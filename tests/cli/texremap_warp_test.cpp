@@ -75,7 +75,7 @@ TEST_CASE(
   if (is_grey)
     session.make("wood/oak_specular.exr", test_spec(kWarpSize, kWarpSize, {"Y"}, OIIO::TypeFloat),
                  [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
-  require_success(session.texremap_with(set, "convert wood --fit stony.json -o out"));
+  require_success(session.texremap_with(set, "convert wood --converters stony.json -o out"));
   session.check_warped("out/oak_", oak_texels(session));
 }
 
@@ -90,11 +90,11 @@ TEST_CASE("texremap warps: a set converted to the source of the warp needs no --
   const auto convert = [&](const std::string& from, const Words& more, const std::string& to) {
     return session.texremap("convert " + from + " -o " + to + more);
   };
-  const Words by_warp = "--fit stony.json";
+  const Words by_warp = "--converters stony.json";
   require_success(convert("metal", "--from metallic --to specular", "plain"));
   require_success(convert("plain", by_warp, "plain_out"));
   require_success(convert("plain_out", "--from specular --to metallic", "metal_again"));
-  require_success(convert("metal_again", "--fit stony.json --from metallic:mitsuba/ggx", "again_out"));
+  require_success(convert("metal_again", "--converters stony.json --from metallic:mitsuba/ggx", "again_out"));
 
   // glTF's diffuse is scaled by the light that specular does not reflect, so it is a different material.
   require_success(convert("metal", "--from metallic --to gltf-specgloss", "scaled"));
@@ -125,7 +125,7 @@ TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps", "[s
   const AlbedoSession session;
   const bool by_folder = GENERATE(true, false);
   const std::string map = session.path("wood/oak_diffuse.exr");
-  Words words = "convert --fit stony.json -o out";
+  Words words = "convert --converters stony.json -o out";
   if (by_folder)
     words.push_back(session.path("wood"));
   else
@@ -143,7 +143,7 @@ TEST_CASE("texremap warps: a warp of a diffuse map alone converts tiles") {
   for (const char* tile : {"1001", "1002"})
     session.make(std::string("tiles/oak_diffuse.") + tile + ".png",
                  test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  require_success(session.texremap("convert tiles --fit stony.json -o out"));
+  require_success(session.texremap("convert tiles --converters stony.json -o out"));
   CHECK(session.result_count() == 6);
   CHECK(std::filesystem::exists(session.path("out/oak_roughness.1002.png")));
 }

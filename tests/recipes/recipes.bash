@@ -50,8 +50,8 @@ assert after == before / 2, (before, after)
 PY
 
 echo "option"
-says "The same as --dither" texremap convert --help-all
-says "--grain" texremap convert --from mitsuba/ward --to mitsuba/as --roughness 0.3 --specular 0.5 --grain
+says "The same as --force" texremap convert --help-all
+says "--again" texremap convert --from mitsuba/ward --to mitsuba/as --roughness 0.3 --specular 0.5 --again
 
 echo "model, and renderer"
 says "toy/ggx" remapc list --models

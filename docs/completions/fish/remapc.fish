@@ -196,7 +196,7 @@ complete -c remapc -n '__fish_seen_subcommand_from show' -s h -l help -d 'Show t
 complete -c remapc -n '__fish_seen_subcommand_from show' -a "(remapc list 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')"
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l from -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model of the texture sets'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l to -x -a "(remapc list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model that the texture sets become'
-complete -c remapc -n '__fish_seen_subcommand_from preview' -l converters -r -F -d 'Use these converters instead of the shipped ones: a converters.json of `remapc emit --all`, a fit, or a folder of fits'
+complete -c remapc -n '__fish_seen_subcommand_from preview' -l converters -r -F -d 'Use these converters instead of the shipped ones: a fit, a folder of fits, or a converters.json of `remapc emit --all`'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s r -l recursive -d 'Find texture sets in subfolders, too'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -l fits -r -F -d 'Folder where ids are looked up'
 complete -c remapc -n '__fish_seen_subcommand_from preview' -s o -l output -r -F -d 'PNG to write: a row per light, shape and alpha'

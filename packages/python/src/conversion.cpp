@@ -9,7 +9,6 @@
 #include "paths/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
-#include "stages/brdf_stage.hpp"
 
 namespace nb = nanobind;
 
@@ -160,11 +159,13 @@ MaterialConversion::MaterialConversion(const Request& request) {
 MaterialConversion MaterialConversion::load(const std::string& path,
                                             const std::optional<std::string>& source_workflow) {
   const FittedConverter fit = load_fitted_converter(path);
+  MaterialConversion conversion;
   BuiltConversion built;
   if (const auto* data = std::get_if<ConverterData>(&fit)) {
     built.choice.source_brdf = data->info.source.model;
     built.choice.target_brdf = data->info.target.model;
-    built = build_conversion(built.choice, make_converter(*data, best_instruction_set()));
+    conversion.read_ = std::make_shared<const ConverterList>(read_converters(path));
+    built = build_conversion(std::move(built.choice), {}, graph_of(*conversion.read_));
   } else if (const auto* warp = std::get_if<WarpMapFit>(&fit)) {
     const WorkflowKind source =
         source_workflow == "metallic" ? WorkflowKind::kMetallic : WorkflowKind::kSpecular;
@@ -175,7 +176,6 @@ MaterialConversion MaterialConversion::load(const std::string& path,
                       ": converts between workflows, which need no fit (give their names as source "
                       "and target)");
   }
-  MaterialConversion conversion;
   conversion.built_ = std::make_shared<const BuiltConversion>(std::move(built));
   return conversion;
 }

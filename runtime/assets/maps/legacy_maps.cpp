@@ -74,14 +74,6 @@ Converter legacy_converter(bool as_dielectric) {
           {make_stage([as_dielectric](Block& block) { convert_legacy(as_dielectric, block); })}};
 }
 
-// Returns the exponent's channel of a map, as floats.
-ImagePixels exponents_of(const LegacyMaps& maps) {
-  ImagePixels result{maps.exponent->width, maps.exponent->height, 1, PixelType::kFloat, {}};
-  result.bytes.resize(result.width * result.height * sizeof(float));
-  set_channel(result, 0, *maps.exponent, maps.exponent_channel);
-  return result;
-}
-
 // Splits an F0 for KHR_materials_specular. Alpha is the largest channel of a texel, as a fraction of the
 // largest value in the map. The color is F0 divided by that channel, in sRGB.
 void settle_specular(const ImagePixels& f0, PixelType type, LegacyMapResult& result) {
@@ -127,7 +119,7 @@ void settle_base(const LegacyMaps& maps, std::optional<ImagePixels> base, Legacy
 }  // namespace
 
 std::map<Parameter, SourceParameter> sources_of(const LegacyMaps& maps, ImagePixels& exponents) {
-  if (maps.exponent != nullptr) exponents = exponents_of(maps);
+  if (maps.exponent != nullptr) exponents = scalar_map(*maps.exponent, maps.exponent_channel);
   return {{Parameter::kDiffuse, color_source(maps.diffuse.get(), maps.factors.diffuse, "diffuse")},
           {Parameter::kSpecular, color_source(maps.specular.get(), maps.factors.specular, "specular")},
           {Parameter::kRoughness, value_source(maps.exponent != nullptr ? &exponents : nullptr, 0,
@@ -206,6 +198,13 @@ void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& fr
     load_scalar_row(from, from_channel, y, row.data());
     store_channel(pixels, channel, y, row.data());
   }
+}
+
+ImagePixels scalar_map(const ImagePixels& pixels, char channel) {
+  ImagePixels result{pixels.width, pixels.height, 1, PixelType::kFloat, {}};
+  result.bytes.resize(result.width * result.height * sizeof(float));
+  set_channel(result, 0, pixels, channel);
+  return result;
 }
 
 ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, bool with_alpha) {

@@ -59,4 +59,7 @@ void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& fr
 // value (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 
+// Returns the values of load_scalar_row() as a map of floats with one channel.
+ImagePixels scalar_map(const ImagePixels& pixels, char channel);
+
 }  // namespace remap

@@ -44,8 +44,6 @@ struct ConversionRequest {
   std::optional<DiffuseConvention> diffuse_convention;
   std::optional<double> dielectric_f0;  // for metallic workflows, 0 to 0.9; by default the model's F0
   double prior = kCleanPrior;           // prior of the projection, towards a metallic of 0 and 1
-  // The fit provides the BRDFs, so the graph need not know them.
-  bool uses_fit_file = false;
   // If true and one end is OpenPBR or standard_surface, all inputs of the surfaces are translated. Otherwise,
   // both names mean metallic workflows like glTF.
   bool translates_surfaces = false;
@@ -109,9 +107,6 @@ struct BuiltConversion {
 // result. Throws kUsage if no path exists, kNumeric if a converter fails its self-test.
 BuiltConversion build_conversion(ConversionChoice choice, const std::vector<std::string>& via,
                                  const ConverterGraph& graph, InstructionSet set = best_instruction_set());
-
-// Makes this from one converter of width and specular, for example from a fit.
-BuiltConversion build_conversion(ConversionChoice choice, std::unique_ptr<Converter> brdf);
 
 // Returns the choice for a warp. Each end has plain diffuse, specular, and a width with the encoding `width`.
 // A metallic source is read by equation (2).

@@ -51,6 +51,7 @@ enum class Parameter {
   kBaseColor,  // color of the metallic workflow
   kMetallic,
   kMetalMask,            // source only: chooses among metallic values that look alike
+  kOcclusion,            // source only: has a place in some layouts, and is never converted
   kResidual,             // target only: the part of a texel that metal-rough cannot express
   kMetallicUncertainty,  // target only: the fraction of [0, 1] that metallic could take
   kMetallicIssues,  // target only: the sum of MetallicIssue values, divided by 255, so that 8 bits hold it
@@ -72,8 +73,8 @@ inline constexpr float kUndeterminedWidth = 0.2f;
 // A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;
 
-// Returns `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `residual`,
-// `metallic_uncertainty`, `issues`, or a name such as `coat_weight`.
+// Returns `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `occlusion`,
+// `residual`, `metallic_uncertainty`, `issues`, or a name such as `coat_weight`.
 std::string_view parameter_name(Parameter parameter);
 // Returns the name in files and messages, such as `base_color`. The width is always `roughness`.
 std::string plain_name(Parameter parameter);

@@ -15,12 +15,28 @@
 namespace remap {
 namespace {
 
-constexpr NamedValues<PixelType, 4> kWrittenTypes = {{{PixelType::kUint8, "uint8"},
-                                                      {PixelType::kUint16, "uint16"},
-                                                      {PixelType::kHalf, "half"},
-                                                      {PixelType::kFloat, "float"}}};
+constexpr NamedValues<WrittenType, 5> kWrittenTypes = {{{WrittenType::kUint8, "uint8"},
+                                                        {WrittenType::kDithered, "uint8-dithered"},
+                                                        {WrittenType::kUint16, "uint16"},
+                                                        {WrittenType::kHalf, "half"},
+                                                        {WrittenType::kFloat, "float"}}};
 constexpr NamedValues<Parameter, 2> kOnly = {
     {{Parameter::kRoughness, "roughness"}, {Parameter::kSpecular, "specular"}}};
+
+PixelType pixel_type_of(WrittenType type) {
+  switch (type) {
+    case WrittenType::kUint16:
+      return PixelType::kUint16;
+    case WrittenType::kHalf:
+      return PixelType::kHalf;
+    case WrittenType::kFloat:
+      return PixelType::kFloat;
+    case WrittenType::kUint8:
+    case WrittenType::kDithered:
+      break;
+  }
+  return PixelType::kUint8;
+}
 
 Reader<MapSource> map_source() {
   return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
@@ -186,7 +202,10 @@ Reader<Part> given_part() {
 
 void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: source and target");
-  command.add_option("DIR", options.folder, "Folder of texture sets; or an asset: a glTF, MTL or OBJ file")
+  command
+      .add_option("DIR", options.folder,
+                  "Folder of texture sets; or an asset: a glTF, MTL or OBJ file; or a folder that contains "
+                  "all files of the assets behind it, whose results keep its tree")
       ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
   command
@@ -203,8 +222,6 @@ void add_source_options(Command& command, ConvertOptions& options) {
                   "program expects; gltf, cycles-5, mitsuba/as, ... (texremap list)")
       ->common()
       ->tag(kForAssets);
-  command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter")
-      ->tag(kIsPath);
   command
       .add_flag("-r,--recursive", options.recursive,
                 "Convert the subfolders of DIR, too; results mirror the tree")
@@ -214,12 +231,6 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_flag("--assets", options.assets,
                 "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR instead of its "
                 "texture sets")
-      ->tag(kNeedsAsset);
-  command
-      .add_option(
-          "--root FOLDER", options.asset_root,
-          "Folder that contains all files of the assets; results keep its tree (default: the folder of "
-          "the asset; with --assets DIR)")
       ->tag(kNeedsAsset);
   command
       .add_flag("--follow-links", options.follow_links,
@@ -241,9 +252,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kOfPlan | kForAssets);
   command
       .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
-      ->allow_extra_args(false)
-      ->excludes(command.option("--fit"));
-  options.converters.add_option(command)->tag(kIsPath)->excludes(command.option("--fit"));
+      ->allow_extra_args(false);
+  options.converters.add_option(command)->tag(kIsPath);
   command
       .add_option(
           "--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
@@ -276,15 +286,10 @@ void add_map_options(Command& command, ConvertOptions& options) {
   add_map("--base-color", P::kBaseColor, "Base color of a metallic workflow; else the file is copied");
   add_map("--metallic", P::kMetallic, "Metallic of a metallic workflow; else --layout places it unconverted");
   command
-      .add_option("--occlusion MAP", options.occlusion, map_source(),
-                  "Ambient occlusion; --layout places it unconverted")
-      ->tag(kChangesResults);
-  command
-      .add_option(
-          "--input NAME=MAP", options.inputs, input_word(),
-          "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
-          "openpbr and standard-surface), or metal_mask=mask.png, which decides between metallic values "
-          "that look alike; repeatable")
+      .add_option("--input NAME=MAP", options.inputs, input_word(),
+                  "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
+                  "openpbr and standard-surface), occlusion=ao.png, which --layout places unconverted, or "
+                  "metal_mask=mask.png, which decides between metallic values that look alike; repeatable")
       ->tag(kChangesResults);
   command
       .add_option(
@@ -317,7 +322,10 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFolder);
 }
 
-constexpr std::array<std::pair<const char*, const char*>, 20> kNewNames = {{
+constexpr std::array<std::pair<const char*, const char*>, 23> kNewNames = {{
+    {"--fit", "--converters"},
+    {"--occlusion", "--input (for example: --input occlusion=ao.png)"},
+    {"--dither", "--type uint8-dithered"},
     {"--preset", "--to (for the packed files of glTF: --to gltf --layout gltf)"},
     {"--fold-specular", "--extensions fold"},
     {"--bake", "--resample"},
@@ -355,8 +363,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
-      .add_option("--type NAME", options.type, one_of(kWrittenTypes, "pixel type"),
-                  "Pixel type of the results")
+      .add_option("--type NAME", options.written_type, one_of(kWrittenTypes, "pixel type"),
+                  "Pixel type of the results; uint8-dithered adds repeatable noise of half a step")
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_option(
@@ -385,6 +393,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "--allow-skips",
       "is no longer needed: texremap skips sets that have nothing to convert (remove this option)");
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
+  command.retire(
+      "--root", "was removed (give the folder before the assets: texremap convert FOLDER chair.gltf -o out)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
   for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
@@ -452,8 +462,6 @@ void add_rare_options(Command& command, ConvertOptions& options) {
                   "Multiply this input: roughness or glossiness before it is decoded, colors in linear light "
                   "by one number or three; repeatable")
       ->tag(kChangesResults | kNotWithDiffuseWarp);
-  command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
-      ->tag(kChangesResults | kNeedsFiles);
 
   command.option_group("Rare: checks");
   command
@@ -532,6 +540,10 @@ void note_given(const Command& command, ConvertOptions& options) {
   constexpr const char* kVariable = "REMAP_INSTRUCTIONS";
   if (const char* name = std::getenv(kVariable))
     options.instructions = instruction_set_from_name(kVariable, name);
+  if (options.written_type) {
+    options.dither = options.written_type == WrittenType::kDithered;
+    options.type = pixel_type_of(*options.written_type);
+  }
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
   for (const auto& [parameter, source] : options.inputs) {
     std::optional<MapSource>& map = options.maps[parameter];

@@ -73,6 +73,8 @@ Reader<ModelName> model_name();
 std::uint64_t memory_limit(int megabytes);
 Option* add_memory_option(Command& command, int& megabytes);
 
+enum class WrittenType { kUint8, kDithered, kUint16, kHalf, kFloat };
+
 struct Compression {
   std::optional<int> level, jpeg_quality;
 };
@@ -83,12 +85,11 @@ struct ConvertOptions {
   std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
   std::vector<std::filesystem::path> more_assets;
   bool assets = false;               // the folder holds assets, not texture sets
-  std::filesystem::path asset_root;  // assets may name only files below this folder
+  std::filesystem::path asset_root;  // the folder before named assets, which may use any file in it
   DielectricExtensions extensions = DielectricExtensions::kKept;
   bool keep_unused = false;
   ModelName from, to;
   std::vector<std::string> via;
-  std::string fit;
   UsedConverters converters;
   bool recursive = false;
   bool follow_links = false;       // follows links that lead out of the input folder
@@ -96,8 +97,7 @@ struct ConvertOptions {
   std::optional<Part> part;        // part of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
-  std::optional<MapSource> glossiness;  // also in `maps`, as roughness
-  std::optional<MapSource> occlusion;
+  std::optional<MapSource> glossiness;                  // also in `maps`, as roughness
   std::optional<RoughnessEncoding> roughness_encoding;  // encoding of roughness maps
   std::vector<ParameterWord<MapSource>> inputs;         // also in `maps`
   std::vector<ParameterWord<std::vector<float>>> factors;
@@ -114,6 +114,7 @@ struct ConvertOptions {
   std::optional<Layout> layout;
   const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
+  std::optional<WrittenType> written_type;  // also in `type` and `dither`
   std::optional<PixelType> type;
   Compression compression;
   WrittenRoughness output_roughness;

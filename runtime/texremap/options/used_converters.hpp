@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "command_line/command.hpp"
+#include "paths/converter_file.hpp"
 #include "remap/path.hpp"
 
 namespace remap {
@@ -19,6 +21,9 @@ class UsedConverters {
   // Returns the graph of the converters, which must not outlive this object. Throws kInput if a converter
   // cannot be read.
   ConverterGraph graph(InstructionSet set = best_instruction_set()) const;
+  // Returns the fit if the option names the file of one fit, which also names its models.
+  std::optional<FittedConverter> fit() const;
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;  // if empty, the shipped converters are used

@@ -41,7 +41,9 @@ void add_named(const ConvertOptions& options, JobList& list) {
       throw usage_error("--output " + options.output.string() +
                         ": is a file, but there are several assets (give a folder)");
     if (!options.asset_root.empty())
-      throw usage_error("--root: cannot be used if --output is a file (give a folder as --output)");
+      throw usage_error("--output " + options.output.string() +
+                        ": is a file, but the results keep the tree of " + options.asset_root.string() +
+                        " (give a folder)");
     require_format(options.folder, options.output);
     add({options.folder, options.output, folder_of_asset(options.folder), folder_of_asset(options.output)},
         list);
@@ -51,8 +53,8 @@ void add_named(const ConvertOptions& options, JobList& list) {
     const fs::path root = options.asset_root.empty() ? folder_of_asset(input) : options.asset_root;
     const fs::path below = input.lexically_normal().lexically_relative(root.lexically_normal());
     if (below.empty() || *below.begin() == "..")
-      throw usage_error("--root " + root.string() + ": " + display_path(input) +
-                        " is not inside this folder (give a folder that contains it)");
+      throw usage_error(display_path(input) + ": is not inside " + root.string() +
+                        ", the folder before it (give a folder that contains it)");
     add({input, options.output / result_name(below, options), root, options.output}, list);
   }
 }

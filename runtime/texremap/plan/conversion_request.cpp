@@ -98,7 +98,9 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
           parameter_option(parameter) +
           ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
           "blender, gltf or usd (for other models, convert to openpbr first)");
-    if (parameter != Parameter::kMetalMask || !workflow.finds_metallic()) refuse_input("--input", parameter);
+    const bool is_used = parameter == Parameter::kOcclusion ||
+                         (parameter == Parameter::kMetalMask && workflow.finds_metallic());
+    if (!is_used) refuse_input("--input", parameter);
   }
 }
 
@@ -170,16 +172,16 @@ TextureSetRequest set_request(const ConvertOptions& options, const ConversionCho
       asked.transfer = found->second;
     request.parameters[parameter] = std::move(asked);
   }
-  const auto carry = [&](const std::string& name, const MapSource* source) {
+  const auto carry = [&](Parameter parameter) {
+    const MapSource* source = options.map_of(parameter);
     if (source == nullptr) return;
     ParameterRequest asked{*source, {}, Transfer::kLinear};
     keep_numbers(options, asked);
     if (const auto* map = std::get_if<MapName>(&asked.source); map != nullptr && map->file.empty()) return;
-    request.carried.push_back({name, std::move(asked)});
+    request.carried.push_back({plain_name(parameter), std::move(asked)});
   };
-  carry("occlusion", options.occlusion ? &*options.occlusion : nullptr);
-  if (!workflow.has_source(Parameter::kMetallic) && !workflow.is_to_metallic())
-    carry("metallic", options.map_of(Parameter::kMetallic));
+  carry(Parameter::kOcclusion);
+  if (!workflow.has_source(Parameter::kMetallic) && !workflow.is_to_metallic()) carry(Parameter::kMetallic);
   request.resample = options.resample;
   request.convention = given_convention(options, workflow);
   return request;
@@ -298,7 +300,6 @@ std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options) {
   };
   if (options.folder.empty()) return shared;
   for (const auto& [parameter, source] : options.maps) add(source);
-  add(options.occlusion);
   return shared;
 }
 

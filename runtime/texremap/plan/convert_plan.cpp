@@ -28,35 +28,27 @@
 namespace remap {
 namespace {
 
-std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const ConversionChoice& choice,
-                                            const FittedConverter& fit) {
-  const auto* data = std::get_if<ConverterData>(&fit);
-  if (data == nullptr)
-    throw Error(ErrorKind::kInput, options.fit +
-                                       ": converts between workflows, which --from and --to "
-                                       "select without a fit (remove --fit)");
-  require_model_of_fit(options.fit, "--from", choice.source_brdf, data->info.source.model);
-  require_model_of_fit(options.fit, "--to", choice.target_brdf, data->info.target.model);
-  return make_converter(*data, options.instructions);
+// Takes the models from the fit, if --converters names one and --from or --to is missing.
+void complete_models(const std::optional<FittedConverter>& fit, ConvertOptions& options) {
+  const auto* data = fit ? std::get_if<ConverterData>(&*fit) : nullptr;
+  if (data == nullptr || (!options.from.empty() && !options.to.empty())) return;
+  const std::string file = options.converters.path().string();
+  require_model_of_fit(file, "--from", options.from.name, data->info.source.model);
+  require_model_of_fit(file, "--to", options.to.name, data->info.target.model);
+  options.from.name = data->info.source.model;
+  options.to.name = data->info.target.model;
 }
 
-// A GivenFit is the fit of --fit, or empty without that option.
-using GivenFit = std::optional<FittedConverter>;
-
-const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
-
-BuiltConversion conversion_of(const ConvertOptions& options, const GivenFit& fit, ConversionChoice choice) {
-  if (const WarpMapFit* warp = warp_in(fit)) {
+BuiltConversion conversion_of(const ConvertOptions& options, const WarpMapFit* warp,
+                              ConversionChoice choice) {
+  if (warp != nullptr) {
     BuiltConversion conversion{std::move(choice)};
     conversion.material = make_warp_converter(*warp, *conversion.choice.source, options.instructions);
     return conversion;
   }
-  if (fit) {
-    std::unique_ptr<Converter> converter = converter_of_fit(options, choice, *fit);
-    return build_conversion(std::move(choice), std::move(converter));
-  }
   if (options.from.empty() || options.to.empty())
-    throw usage_error(std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
+    throw usage_error(std::string(options.from.empty() ? "--from" : "--to") +
+                      " is required (or a fit as --converters)");
   return build_conversion(std::move(choice), options.via, options.converters.graph(options.instructions),
                           options.instructions);
 }
@@ -147,7 +139,7 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
               asked);
   }
   for (const Carried<ParameterRequest>& carried : request.carried)
-    require("--" + carried.name, carried.parameter);
+    require(parameter_option(*parameter_named(carried.name)), carried.parameter);
 }
 
 // Finds the sets of the manifest or the folder. Without either there are none.
@@ -161,7 +153,10 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   choose_files(options);
   if (manifest) found = std::move(manifest->found);
   std::string inferred;
-  if (options.from.empty() && options.fit.empty() && !options.to.empty()) {
+  const std::optional<FittedConverter> fit = options.converters.fit();
+  const WarpMapFit* warp = fit ? std::get_if<WarpMapFit>(&*fit) : nullptr;
+  complete_models(fit, options);
+  if (options.from.empty() && warp == nullptr && !options.to.empty()) {
     if (options.part)
       throw usage_error("--from is required (a part does not know the maps of the other parts)");
     find_sets_of(options, found);
@@ -169,14 +164,12 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
     options.from = model_name().read("--from", source.model);
     inferred = source.note;
   }
-  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
-  const WarpMapFit* warp = warp_in(fit);
   ConversionChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);
   TargetChoice targets = target_choice(options, workflow);
   TextureSetRequest request = set_request(options, workflow);
   SetPlan& sets = plan.work.emplace<SetPlan>(
-      SetPlan{options.converters, conversion_of(options, fit, std::move(workflow)), std::move(request),
+      SetPlan{options.converters, conversion_of(options, warp, std::move(workflow)), std::move(request),
               std::move(targets), options.dielectric_f0, options.output_roughness.white.has_value()});
   const BuiltConversion& chosen = sets.chosen;
   const auto name = [](const ModelName& typed, const ModelSide& side) {
@@ -217,7 +210,7 @@ void complete_asset_options(ConvertOptions& options) {
   if (engine_layout_of(options.to.word()) == nullptr && is_gltf)
     options.to = model_name().read("--to", "gltf");
   const bool is_tree = options.assets || !options.manifest.empty();
-  if (!is_tree && options.output.empty() && options.more_assets.size() == 1)
+  if (!is_tree && options.asset_root.empty() && options.output.empty() && options.more_assets.size() == 1)
     options.output = std::exchange(options.more_assets, {}).front();
 }
 
@@ -232,11 +225,9 @@ void require_asset_options(const ConvertOptions& options) {
   if (!is_tree)
     refuse(options, kNeedsTree,
            ": applies only to folders of assets (remove this option, or give a folder and --assets)");
-  if (is_tree && (!options.more_assets.empty() || !options.asset_root.empty()))
+  if (is_tree && !options.more_assets.empty())
     throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
-                      (options.more_assets.empty()
-                           ? std::string("--root, because DIR is the root already (remove --root)")
-                           : display_path(options.more_assets.front()) + " (give one folder)"));
+                      display_path(options.more_assets.front()) + " (give one folder)");
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source &&
       !mtl_maker_of(options))
@@ -315,6 +306,17 @@ std::string command_text(const std::vector<GivenOption>& given) {
   return text;
 }
 
+// Makes the first path the root of the assets behind it, if it is a folder.
+void take_root(ConvertOptions& options) {
+  std::vector<std::filesystem::path>& assets = options.more_assets;
+  std::error_code ignored;
+  if (options.assets || !options.manifest.empty() || assets.empty() ||
+      !std::ranges::all_of(assets, is_asset) || !std::filesystem::is_directory(options.folder, ignored))
+    return;
+  options.asset_root = std::exchange(options.folder, assets.front());
+  assets.erase(assets.begin());
+}
+
 // Confines inputs to the folders in which others may have put files.
 void confine(const ConvertOptions& options, const std::optional<TreeManifest>& manifest) {
   std::vector<std::filesystem::path> folders;
@@ -332,6 +334,7 @@ void confine(const ConvertOptions& options, const std::optional<TreeManifest>& m
 }  // namespace
 
 ConvertPlan resolve(ConvertOptions options) {
+  take_root(options);
   if (!options.assets) require_one_kind(options.folder, options.more_assets);
   std::optional<TreeManifest> manifest = listed_entries(options);
   const bool has_assets = are_assets(options, manifest);

@@ -333,14 +333,15 @@ bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry
 // Adds the maps that are not converted but have a place in the layout.
 void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   const std::string number = tile == 0 ? "" : std::to_string(tile);
-  const auto add_given = [&](const std::string& name, const MapSource* source) {
+  const auto add_given = [&](Parameter parameter) {
+    const MapSource* source = options_.map_of(parameter);
     const auto* given = source != nullptr ? std::get_if<MapName>(source) : nullptr;
     if (given == nullptr) return;
     const MapName map{file_of_set(given->file, set, number), given->channels};
-    request.carried.push_back({name, {map, {}, Transfer::kLinear}});
+    request.carried.push_back({plain_name(parameter), {map, {}, Transfer::kLinear}});
   };
-  add_given("occlusion", options_.occlusion ? &*options_.occlusion : nullptr);
-  if (!workflow_.is_material()) add_given("metallic", options_.map_of(Parameter::kMetallic));
+  add_given(Parameter::kOcclusion);
+  if (!workflow_.is_material()) add_given(Parameter::kMetallic);
   for (const FoundMap& map : set.maps)
     for (const ChannelMeaning& entry : map.meaning) {
       const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();

@@ -48,7 +48,6 @@ ConversionChoice workflow_choice(const ConvertOptions& options) {
   request.via = options.via;
   request.diffuse_convention = options.diffuse_convention;
   request.prior = options.prior;
-  request.uses_fit_file = !options.fit.empty();
   request.translates_surfaces = true;
   request.words = option_words();
   if (f0 != nullptr) request.dielectric_f0 = *f0;
@@ -66,9 +65,10 @@ void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::
 
 // Handles a warp whose source is only a diffuse map. It has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, ConversionChoice& choice) {
-  refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts only a diffuse map");
+  const std::string warp = options.converters.path().string();
+  refuse_with_warp(options, kNotWithDiffuseWarp, warp + ", which converts only a diffuse map");
   if (kind_of(*choice.source) == WorkflowKind::kMetallic)
-    throw usage_error("--from metallic:" + options.from.name + ": " + options.fit +
+    throw usage_error("--from metallic:" + options.from.name + ": " + warp +
                       " converts only a diffuse map (remove this option)");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessEncoding::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kRoughness, {1.0f}}};
@@ -79,17 +79,17 @@ void choose_diffuse_alone(const ConvertOptions& options, ConversionChoice& choic
 void require_model_of_fit(const std::string& file, const std::string& option, const std::string& asked,
                           const std::string& own) {
   if (!asked.empty() && asked != own)
-    throw Error(ErrorKind::kUsage, file + ": " + (option == "--from" ? "source" : "target") + " model is " +
-                                       own + ", but " + option + " asks for " + asked + " (remove " + option +
-                                       ")");
+    throw usage_error(file + ": " + (option == "--from" ? "source" : "target") + " model is " + own +
+                      ", but " + option + " asks for " + asked + " (remove " + option + ")");
 }
 
 ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
-  refuse_with_warp(options, kNotWithWarp, options.fit);
-  require_model_of_fit(options.fit, "--from", options.from.name, fit.source_model);
-  require_model_of_fit(options.fit, "--to", options.to.name, fit.template_model);
+  const std::string warp = options.converters.path().string();
+  refuse_with_warp(options, kNotWithWarp, warp);
+  require_model_of_fit(warp, "--from", options.from.name, fit.source_model);
+  require_model_of_fit(warp, "--to", options.to.name, fit.template_model);
   if (options.to.workflow)
-    throw usage_error("--to: results of the warp " + options.fit +
+    throw usage_error("--to: results of the warp " + warp +
                       " have the specular workflow (remove this option)");
   // The warp was made from maps of roughness.
   const RoughnessEncoding width = options.reads_glossiness()

@@ -10,17 +10,17 @@
 
 namespace remap {
 
-// Resolves `--from` and `--to`, which are optional with `--fit`. If `--to` is a renderer, chooses its closest
-// model, on paths through `--via`. Throws kUsage for an unknown name, for a workflow that contradicts the
-// named model, and for options that require a workflow if neither end has a workflow.
+// Resolves `--from` and `--to`, which are optional if `--converters` is a fit. If `--to` is a renderer,
+// chooses its closest model, on paths through `--via`. Throws kUsage for an unknown name, for a workflow that
+// contradicts the named model, and for options that require a workflow if neither end has a workflow.
 ConversionChoice workflow_choice(const ConvertOptions& options);
 
 // Returns the choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the
 // options name. Throws kUsage for options that cannot be used with a warp, and for other models.
 ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
 
-// Throws kUsage if the user asks for another model than the fit in `file` has. `option` is --from or --to. An
-// empty `asked` accepts any model.
+// Throws kUsage if `asked`, the model of `option`, is not the fit's `own`. An empty `asked` accepts any
+// model.
 void require_model_of_fit(const std::string& file, const std::string& option, const std::string& asked,
                           const std::string& own);
 

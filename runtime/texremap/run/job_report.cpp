@@ -28,7 +28,6 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   append(warnings, other.warnings);
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;
-  has_8_bits = has_8_bits || other.has_8_bits;
   has_compression_level = has_compression_level || other.has_compression_level;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   if (!is_retryable(failure_code)) failure_code = other.failure_code;

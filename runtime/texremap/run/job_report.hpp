@@ -55,7 +55,7 @@ struct JobReport {
   std::optional<DielectricF0> estimated_f0;                // only from a specular to a metallic workflow
   std::optional<TranslationEffect> effect;                 // only for a translation between surfaces
   std::vector<PlannedRole> plan;                           // plan of a dry run; for tiles, the first tile's
-  bool has_8_bits = false, has_compression_level = false;  // true if any result has it
+  bool has_compression_level = false;                      // true if any result has one
   MapStatistics statistics;
 
   std::vector<AssetMaterial> materials;  // materials of assets
@@ -111,7 +111,7 @@ void fields(Archive& archive, JobReport& report) {
   archive(report.name, report.tiles, report.inputs, report.results, report.copies, report.warnings,
           report.failure, report.failure_code, report.was_done, report.seconds, report.bytes_read,
           report.bytes_written, report.left_behind, report.specular_transfer, report.colors,
-          report.estimated_f0, report.effect, report.plan, report.has_8_bits, report.has_compression_level,
+          report.estimated_f0, report.effect, report.plan, report.has_compression_level,
           report.statistics, report.materials);
 }
 

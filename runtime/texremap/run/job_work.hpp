@@ -13,7 +13,7 @@ namespace remap {
 using JobWorker =
     std::function<void(const Job& job, const std::function<void(double)>& progress, JobReport& report)>;
 
-// Refuses --dither and --compression if sets were converted and no result can use them. Throws kUsage.
+// Refuses --compression if sets were converted and no result can use it. Throws kUsage.
 void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports);
 
 // Makes a worker with `threads` for each job. `plan` and `folder` must outlive the worker.

@@ -336,11 +336,8 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
   std::vector<TargetMap> maps = open_targets(set, targets);
   note_issues(set, maps, report);
   note_colors(set, maps, report);
-  for (const TargetMap& map : maps) {
-    const ImageLayout& layout = map.writer->layout();
-    report.has_compression_level |= layout.has_compression_level;
-    for (const Channel& channel : layout.channels) report.has_8_bits |= channel.type == PixelType::kUint8;
-  }
+  for (const TargetMap& map : maps)
+    report.has_compression_level |= map.writer->layout().has_compression_level;
   if (!plan_.list.has_several) require_effect(plan_, {report});
   PassOptions pass = pass_;
   pass.target_convention = width;
@@ -365,13 +362,9 @@ JobWorker set_worker(const ConvertPlan& plan, OutputFolder& folder, int threads)
 void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& reports) {
   if (plan.sets() == nullptr || plan.dry_run || plan.part) return;
   const auto converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
-  const auto some = [&](bool JobReport::*has) {
-    return std::ranges::any_of(reports, [&](const JobReport& report) { return report.*has; });
-  };
   if (std::ranges::none_of(reports, converted)) return;
-  if (plan.sets()->targets.treatment.dither && !some(&JobReport::has_8_bits))
-    throw usage_error("--dither: has no effect, because no result has 8 bits (remove this option)");
-  if (plan.sets()->targets.compression_level && !some(&JobReport::has_compression_level))
+  if (plan.sets()->targets.compression_level &&
+      std::ranges::none_of(reports, &JobReport::has_compression_level))
     throw usage_error(
         "--compression: has no effect, because it is for PNG, and for EXR and TIFF with zip compression "
         "(remove this option)");

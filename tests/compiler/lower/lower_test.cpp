@@ -135,6 +135,14 @@ TEST_CASE("lower: limits that are reached are part of the form") {
   CHECK_FALSE(free.form.specular_limit.has_value());
 }
 
+TEST_CASE("lower: a limit that only texels beyond the domain reach is part of the converter") {
+  Fit fit = fit_of(line(), kWhole);
+  fit.limits = {1.0, 1.0};
+  CHECK_FALSE(lower(fit).form.specular_limit.has_value());
+  add_converter(&fit);
+  CHECK(fit.converter->form.specular_limit == 1.0f);
+}
+
 TEST_CASE("lower: what does not vanish with specular needs a domain above 0") {
   const Parametric offset{{{0.8}},
                           {{0, {0.02, 0.0, 0.0, 0.0, 0.0, 0.0}}, {1, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0}}}};

@@ -54,7 +54,7 @@ TEST_CASE("nearest name: a slip is forgiven, another word is not") {
   CHECK(nearest_name("mitsuba/wrad", names) == "mitsuba/ward");
   CHECK(nearest_name("mitsuba/gx", names) == "mitsuba/ggx");
   CHECK(nearest_name("renderman", names).empty());
-  CHECK(nearest_name("--out", std::vector<std::string>{"--fit", "--root", "--output"}) == "--output");
+  CHECK(nearest_name("--out", std::vector<std::string>{"--fit", "--force", "--output"}) == "--output");
   CHECK(nearest_name("--out", std::vector<std::string>{"--fit"}).empty());
   CHECK(nearest_names("ggx", {"glb", "mitsuba/ward", "mitsuba/ggx"}, 5) ==
         std::vector<std::string>{"mitsuba/ggx"});
