@@ -90,7 +90,9 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
     const bool known = std::ranges::any_of(files, [&](const EmittedFile& file) {
       return std::filesystem::path(file.name).filename() == entry.path().filename();
     });
-    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
+    if (!known)
+      found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string() +
+                      " (delete it)");
   }
   return found;
 }
@@ -121,7 +123,7 @@ void run(const EmitCommand& options) {
   if (!found.empty())
     throw Error(ErrorKind::kInput, options.output.string() + ": " + counted(found.size(), "file") +
                                        (found.size() == 1 ? " is" : " are") +
-                                       " out of date (run `remapc emit --all`)");
+                                       " out of date (run this command without --check)");
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ struct MetallicDiagnosis {
   // values).
   float residual = 0.0f;
   // This is how much metallic can vary, as a fraction of [0, 1], while the squared error (with the best base
-  // color) stays within (1/255)^2 of the smallest. Above 0.2, metallic is not reliable. This does not change
-  // the picture.
+  // color) stays within (1/255)^2 of the smallest. Above 0.2, metallic is not reliable, but all
+  // values in this range give almost the same picture.
   float metallic_uncertainty = 0.0f;
   // True if a parameter was outside of [0, 1], or if a base color was outside by more than half a step of 8
   // bits.

@@ -1,5 +1,5 @@
-// Previews of texture sets: balls of uniform maps equal the spheres of numbers, maps lie on the ball as they
-// are written, and the figures follow from the conversion.
+// This file tests previews of texture sets. A ball with uniform maps must equal a sphere with the same
+// numbers, each texel must appear at its place on the ball, and the errors must follow from the conversion.
 #include "report/set_preview.hpp"
 
 #include <cmath>
