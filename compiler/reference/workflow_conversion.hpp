@@ -19,7 +19,7 @@
 
 namespace remap {
 
-// A ClosedFormula is a formula without numbers of its own. Metallic workflows cannot express all specular
+// A ClosedFormula is a formula without fitted numbers. Metallic workflows cannot express all specular
 // materials, so the formulas to metallic differ.
 enum class ClosedFormula {
   kEquation2,  // from metallic to specular by equation (2) of the paper; it is exact

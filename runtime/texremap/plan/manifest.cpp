@@ -32,7 +32,7 @@ bool is_read(const FoundMap& map) {
   });
 }
 
-// A set or an asset with the content of its line.
+// A ListedEntry is a set or an asset, with what its line of the manifest holds.
 template <class Entry>
 struct ListedEntry {
   const Entry& entry;

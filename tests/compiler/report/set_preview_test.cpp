@@ -137,7 +137,7 @@ TEST_CASE("set preview: a set that does not change looks the same, and Blender's
   REQUIRE(other.notes.size() == 2);
   CHECK_THAT(other.notes[0], Contains("is shown as mitsuba/ggx"));
 
-  // Roughness and specular alone, without a diffuse lobe.
+  // The set has only roughness and specular, without a diffuse lobe.
   std::filesystem::rename(folder.path() / "sets/tile_basecolor.png",
                           folder.path() / "sets/tile_specular.png");
   const SetPreview lobe = preview_of(folder, "mitsuba/ward", "mitsuba/as");
