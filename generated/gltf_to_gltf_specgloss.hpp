@@ -99,11 +99,11 @@ inline float approximate_root(float value) noexcept {
   return value * inverse;
 }
 
-// What the width of a material is given as.
+// A WidthParameter is the encoding of a material's width.
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
-// What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
+// A Conventions is the meaning of the parameters of both ends. If diffuse_is_scaled, diffuse of the specular
+// workflow is multiplied by 1 - max(specular). A dielectric's diffuse is diffuse_of_albedo times base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -218,7 +218,7 @@ inline std::size_t metallic_to_specular(const Conventions& use, const std::array
       const float* const green = material.row[1];
       const float* const blue = material.row[2];
       const float strongest = of_dielectric[i] + metallic[i] * larger(larger(red[i], green[i]), blue[i]);
-      // It cannot be more than 1 but for rounding; a white metal has neither diffuse nor light left for it.
+      // The share exceeds 1 only by rounding. For a white metal, numerator and denominator are both 0.
       const float share = smaller(diffuse_share[i] / larger(from_zero(1.0f - strongest), 1e-6f), 1.0f);
       diffuse_share[i] = float_from_bits(bits(share) | (nan_mask(strongest) & 0x7fffffffu));
     });

@@ -74,7 +74,7 @@ struct mitsuba_ward_to_mitsuba_beckmann {
     static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
     static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
 
-    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    // Texels are converted in blocks of rows. Their length is a constant, so that compilers vectorise the loops.
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular

@@ -101,11 +101,11 @@ inline float approximate_root(float value) noexcept {
   return value * inverse;
 }
 
-// What the width of a material is given as.
+// A WidthParameter is the encoding of a material's width.
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
-// What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
+// A Conventions is the meaning of the parameters of both ends. If diffuse_is_scaled, diffuse of the specular
+// workflow is multiplied by 1 - max(specular). A dielectric's diffuse is diffuse_of_albedo times base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
