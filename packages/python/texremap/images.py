@@ -264,7 +264,8 @@ class StoredImage:
         if self.level_count > 1:
             self._fail("cannot be resampled, because it has mip levels")
         if (spec.x, spec.y, spec.width, spec.height) != (spec.full_x, spec.full_y, spec.full_width, spec.full_height):
-            self._fail("cannot be resampled, because its data window differs from its display window (crop it: oiiotool OLD --croptofull -o NEW)")
+            self._fail("cannot be resampled, because its data window differs from its display window "
+                       "(crop it: oiiotool OLD --croptofull -o NEW)")
         spec.width = spec.full_width = width
         spec.height = spec.full_height = height
 
