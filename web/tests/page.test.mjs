@@ -198,7 +198,7 @@ describe('a folder that is served', { skip }, () => {
       assert.deepEqual(decode(files[name]).data, data.map((value) => 65535 - value));
     }));
 
-  // With chroma of half the size, an orientation to ignore, and grey.
+  // The pictures have chroma of half the size, an orientation that must be ignored, or only grey.
   for (const [format, decoder] of [['jpg', 'libjpeg-turbo'], ['webp', 'libwebp']])
     test(`every value of ${format}, as ${decoder} decodes it`, { skip: skipOiiotool }, () =>
       visited(server.url, async (visit) => {

@@ -150,7 +150,7 @@ class Contest {
   Contest(Samples samples, std::uint64_t seed, unsigned jobs)
       : samples_(std::move(samples)), folds_(folds_of(samples_, seed)), jobs_(jobs) {}
 
-  // Evaluates those of `points` that are new on the first folds, and the promising ones on the other folds.
+  // Evaluates new points on the first folds, and then the promising points on the other folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Trial*> entered;
     for (const Point& point : points) {

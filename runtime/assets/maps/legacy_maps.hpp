@@ -23,13 +23,15 @@ struct LegacyMaps {
 
 struct LegacyMapResult {
   MetalRoughFactors factors;  // the base color is 1 if there is a map of it
-  // In sRGB. It is unset if base color is its factor, or the diffuse map times this factor.
+  // This map is sRGB. It is unset if base color is only a factor, or the diffuse map times a factor.
   std::optional<ImagePixels> base_color;
   bool keeps_diffuse = false;  // true if base color is the diffuse map times its factor, within 1/255
   std::optional<ImagePixels> metal_rough;  // packed as in glTF; unset if both are constant
-  // Only for a dielectric. The color is F0 / F in sRGB, and alpha is F / `specular_factor`.
+  // This map is set only for a dielectric. Its color is F0 / F in sRGB, and its alpha is F /
+  // `specular_factor`.
   std::optional<ImagePixels> specular;
-  // Only for a dielectric. It is F, or with a map the largest F, of which alpha is a fraction.
+  // This is set only for a dielectric. It is F. If there is a map, it is the largest F, and alpha is a
+  // fraction of it.
   double specular_factor = 0.0;
   std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // for a dielectric: F0 / F; 1 if there is a map
 };
