@@ -264,7 +264,8 @@ def test_transforms_of_textures_are_those_of_the_specification(tmp_path, maps):
     mtlx.convert(tmp_path / "in.gltf", tmp_path / "out.mtlx", to="openpbr")
     texture = MtlxReader(str(tmp_path / "out.mtlx"), str(tmp_path)).surface(0).sources["base_color"]
     assert texture.wrap == ("clamp", "mirror") and texture.place.primvar == "st1"
-    # KHR_texture_transform is translation * rotation * scale with v downwards. UsdTransform2d scales, rotates and translates with v upwards.
+    # KHR_texture_transform is translation * rotation * scale, with v downwards. UsdTransform2d scales, rotates and
+    # translates, with v upwards.
     c, s = math.cos(rotation), math.sin(rotation)
     for u, v in np.random.default_rng(1).random((5, 2)):
         x, y = u * scale[0], v * scale[1]

@@ -57,7 +57,7 @@ ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, boo
 // Replaces a channel by the values that load_scalar_row() loads from another map of the same size.
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// Loads `count` values of row `y`, from 0 to 1. They come from the channel that MTL gives for maps of one
+// Loads the values of row `y`, from 0 to 1. They come from the channel that MTL gives for maps of one
 // value (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 
