@@ -8,7 +8,7 @@
 
 namespace {
 
-// 0 to 255 as 0 to 1. A type of half floats of your own has the same two conversions.
+// A Byte stores 0 to 1 as an integer from 0 to 255. A type of half floats needs the same two conversions.
 class Byte {
  public:
   explicit Byte(float value)

@@ -25,7 +25,7 @@
 
 namespace remap {
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct blender_internal_2_7_ward_to_mitsuba_ward {
   static constexpr const char* kId = "blender_internal_2_7_ward_to_mitsuba_ward";
   static constexpr const char* kSourceModel = "blender-internal-2.7/ward";
@@ -35,21 +35,21 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
   static constexpr const char* kSourceSpecular = "specular";
   static constexpr const char* kTargetSpecular = "specular";
 
-  // The numbers of this converter, and what it does.
+  // A Form holds the numbers of this converter and its formula.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
-    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
+    // This is the measured range. Beyond it, widths are clamped, and both parameters continue in proportion. Specular below 0 is
+    // treated as 0. Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.010086592f, width_max = 0.71f;
     static constexpr float specular_min = 0.0f, specular_max = 0.13855854f;
     static constexpr float width_from = 0.0f, width_to = 0.71f;  // to which widths are clamped
     static constexpr float alpha_min = 0.010086592f, least_alpha = 0.0f;  // of the source, of the target
     static constexpr float pole = 1.0f;
-    // The target's limits. What one cuts off changes the other parameter.
+    // These are the target's limits. What a limit cuts off from one parameter changes the other parameter.
     static constexpr float alpha_limit = 1.0f, specular_limit = std::numeric_limits<float>::infinity();
     static constexpr float turn = 0.0f, turn_by_alpha = 0.0f, bend = 0.0f, spread = 0.0f;
 
-    // Target alpha is alpha times the first, target specular s times the second; t = s / (s + pole). Alpha takes t of the largest
-    // channel.
+    // Target alpha is alpha times the first factor. Target specular is s times the second. t is s / (s + pole), for alpha with s
+    // of the largest channel.
     static float alpha_factor(float alpha, float) noexcept {
       return ((0.47287f * alpha + 0.33649f) * alpha + 0.12233f) * alpha + 0.99092f;
     }
@@ -60,7 +60,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     static float to_alpha(float own) noexcept { return own; }
     static float from_alpha(float alpha) noexcept { return alpha; }
 
-    // Floats from 0 compare as integers do: compilers make vectors of that, whatever their flags.
+    // Floats that are not negative compare like these integers. Compilers vectorise this with any flags.
     static std::int32_t order(float value) noexcept {
       std::int32_t result = 0;
       std::memcpy(&result, &value, sizeof result);
@@ -74,7 +74,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
     static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
 
-    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    // Texels are converted in blocks of rows. Their length is a constant, so that compilers vectorise the loops.
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
@@ -104,7 +104,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
       }
     }
 
-    // Channels are no loop: gcc would join their iterations, and be slower.
+    // Channels are not a loop, because gcc would join the iterations, which is slower.
     template <std::size_t Size, std::size_t... Channel>
     void convert(const float* width, const std::array<const float*, sizeof...(Channel)>& specular, float* width_out,
                  const std::array<float*, sizeof...(Channel)>& specular_out, Rows<Size>& rows,
@@ -154,8 +154,8 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     }
   };
 
-  // Texels in memory: rows of their own, {width, {red, green, blue}}, or elements of a buffer, {rgba + 3, {rgba, rgba + 1,
-  // rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
+  // A Texels points to texels in memory: to separate rows, {width, {red, green, blue}}, or to elements of one buffer,
+  // {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
   template <class T = float, std::size_t Channels = 3>
   struct Texels {
     T* width;
@@ -174,7 +174,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     return out;
   }
 
-  // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
+  // Converts `count` texels, with the same bits. Output may be exactly the elements of input. Returns how many were out of domain.
   template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
                                     const Texels<Out, Channels>& out) noexcept {
@@ -201,7 +201,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     return outside;
   }
 
-  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
+  // Returns true if this compilation gives the values of the fit, as remapc computes them in double precision.
   static bool self_test() noexcept {
     constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.010086592f, 0.13855854f, 0.010007802f, 0.43883702f, 2.5e-06f, 2.5e-06f}, {0.09757577f, 0.12989862f, 0.09820996f, 0.4265276f, 2.5e-06f, 2.5e-06f},
@@ -230,7 +230,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
 
   static constexpr std::size_t kBlock = 128;
 
-  // `size` elements from `at` as a row of floats, filled up with `rest`; where they are a row of floats, that.
+  // Returns `size` elements from `at` as a row of floats, filled up with `rest`. If they are such a row already, returns it.
   template <class T>
   static const float* read(const T* from, std::size_t stride, std::size_t at, std::size_t size, float rest,
                            float (&row)[kBlock]) noexcept {
@@ -240,7 +240,7 @@ struct blender_internal_2_7_ward_to_mitsuba_ward {
     for (std::size_t i = size; i < kBlock; ++i) row[i] = rest;
     return row;
   }
-  // A row for them, and how it gets there.
+  // Returns the row for results: a row of the output, or `row`, which write() then copies to the output.
   template <class T>
   static float* row_of(T* to, std::size_t stride, std::size_t at, std::size_t size, float (&row)[kBlock]) noexcept {
     if constexpr (std::is_same_v<T, float>)

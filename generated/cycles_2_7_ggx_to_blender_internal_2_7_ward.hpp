@@ -25,7 +25,7 @@
 
 namespace remap {
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
   static constexpr const char* kId = "cycles_2_7_ggx_to_blender_internal_2_7_ward";
   static constexpr const char* kSourceModel = "cycles-2.7/ggx";
@@ -35,18 +35,18 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
   static constexpr const char* kSourceSpecular = "f0";
   static constexpr const char* kTargetSpecular = "specular";
 
-  // The numbers of this converter, and what it does.
+  // A Form holds the numbers of this converter and its formula.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
-    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
+    // This is the measured range. Beyond it, widths are clamped, and both parameters continue in proportion. Specular below 0 is
+    // treated as 0. Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.009808861f, width_max = 0.58919615f;
     static constexpr float specular_min = 0.0f, specular_max = 0.4175574f;
     static constexpr float width_from = 0.0f, width_to = 0.58919615f;  // to which widths are clamped
     static constexpr float alpha_min = 0.009808861f, least_alpha = 0.0f;  // of the source, of the target
     static constexpr float pole = 1.0f;
 
-    // Target alpha is alpha times the first, target specular s times the second; t = s / (s + pole). Alpha takes t of the largest
-    // channel.
+    // Target alpha is alpha times the first factor. Target specular is s times the second. t is s / (s + pole), for alpha with s
+    // of the largest channel.
     static float alpha_factor(float alpha, float) noexcept {
       return ((((5.8276067f * alpha - 3.731537f) * alpha - 2.2262266f) * alpha + 1.3869829f) * alpha + 0.024369854f) * alpha + 1.1981467f;
     }
@@ -57,7 +57,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     static float to_alpha(float own) noexcept { return own; }
     static float from_alpha(float alpha) noexcept { return alpha; }
 
-    // Floats from 0 compare as integers do: compilers make vectors of that, whatever their flags.
+    // Floats that are not negative compare like these integers. Compilers vectorise this with any flags.
     static std::int32_t order(float value) noexcept {
       std::int32_t result = 0;
       std::memcpy(&result, &value, sizeof result);
@@ -71,7 +71,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
     static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
 
-    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    // Texels are converted in blocks of rows. Their length is a constant, so that compilers vectorise the loops.
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
@@ -101,7 +101,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
       }
     }
 
-    // Channels are no loop: gcc would join their iterations, and be slower.
+    // Channels are not a loop, because gcc would join the iterations, which is slower.
     template <std::size_t Size, std::size_t... Channel>
     void convert(const float* width, const std::array<const float*, sizeof...(Channel)>& specular, float* width_out,
                  const std::array<float*, sizeof...(Channel)>& specular_out, Rows<Size>& rows,
@@ -145,8 +145,8 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     }
   };
 
-  // Texels in memory: rows of their own, {width, {red, green, blue}}, or elements of a buffer, {rgba + 3, {rgba, rgba + 1,
-  // rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
+  // A Texels points to texels in memory: to separate rows, {width, {red, green, blue}}, or to elements of one buffer,
+  // {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
   template <class T = float, std::size_t Channels = 3>
   struct Texels {
     T* width;
@@ -165,7 +165,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     return out;
   }
 
-  // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
+  // Converts `count` texels, with the same bits. Output may be exactly the elements of input. Returns how many were out of domain.
   template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
                                     const Texels<Out, Channels>& out) noexcept {
@@ -192,7 +192,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     return outside;
   }
 
-  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
+  // Returns true if this compilation gives the values of the fit, as remapc computes them in double precision.
   static bool self_test() noexcept {
     constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.009808861f, 0.4175574f, 0.011756087f, 0.19106957f, 4.8e-06f, 7.7e-06f}, {0.082232274f, 0.39146006f, 0.09934835f, 0.15802953f, 4.8e-06f, 7.6e-06f},
@@ -221,7 +221,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
 
   static constexpr std::size_t kBlock = 128;
 
-  // `size` elements from `at` as a row of floats, filled up with `rest`; where they are a row of floats, that.
+  // Returns `size` elements from `at` as a row of floats, filled up with `rest`. If they are such a row already, returns it.
   template <class T>
   static const float* read(const T* from, std::size_t stride, std::size_t at, std::size_t size, float rest,
                            float (&row)[kBlock]) noexcept {
@@ -231,7 +231,7 @@ struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
     for (std::size_t i = size; i < kBlock; ++i) row[i] = rest;
     return row;
   }
-  // A row for them, and how it gets there.
+  // Returns the row for results: a row of the output, or `row`, which write() then copies to the output.
   template <class T>
   static float* row_of(T* to, std::size_t stride, std::size_t at, std::size_t size, float (&row)[kBlock]) noexcept {
     if constexpr (std::is_same_v<T, float>)

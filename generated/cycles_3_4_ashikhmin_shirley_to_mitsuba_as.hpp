@@ -26,7 +26,7 @@
 
 namespace remap {
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
   static constexpr const char* kId = "cycles_3_4_ashikhmin_shirley_to_mitsuba_as";
   static constexpr const char* kSourceModel = "cycles-3.4/ashikhmin-shirley";
@@ -36,18 +36,18 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
   static constexpr const char* kSourceSpecular = "color";
   static constexpr const char* kTargetSpecular = "f0";
 
-  // The numbers of this converter, and what it does.
+  // A Form holds the numbers of this converter and its formula.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
-    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
+    // This is the measured range. Beyond it, widths are clamped, and both parameters continue in proportion. Specular below 0 is
+    // treated as 0. Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.1f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
     static constexpr float alpha_min = 0.010000001f, least_alpha = 0.0f;  // of the source, of the target
     static constexpr float pole = 0.02f;
 
-    // Target alpha is alpha times the first, target specular s times the second; t = s / (s + pole). Alpha takes t of the largest
-    // channel.
+    // Target alpha is alpha times the first factor. Target specular is s times the second. t is s / (s + pole), for alpha with s
+    // of the largest channel.
     static float alpha_factor(float alpha, float t) noexcept {
       return (((0.078564f * alpha - 0.19518f) * alpha + 0.016466f) * alpha - 0.0004049f) * t + ((((-0.89273f * alpha + 1.9663f) * alpha - 1.0317f) * alpha - 0.0729f) * alpha + 0.99788f);
     }
@@ -58,7 +58,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     static float to_alpha(float own) noexcept { return own * own; }
     static float from_alpha(float alpha) noexcept { return alpha; }
 
-    // Floats from 0 compare as integers do: compilers make vectors of that, whatever their flags.
+    // Floats that are not negative compare like these integers. Compilers vectorise this with any flags.
     static std::int32_t order(float value) noexcept {
       std::int32_t result = 0;
       std::memcpy(&result, &value, sizeof result);
@@ -72,7 +72,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
     static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
 
-    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    // Texels are converted in blocks of rows. Their length is a constant, so that compilers vectorise the loops.
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
@@ -102,7 +102,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
       }
     }
 
-    // Channels are no loop: gcc would join their iterations, and be slower.
+    // Channels are not a loop, because gcc would join the iterations, which is slower.
     template <std::size_t Size, std::size_t... Channel>
     void convert(const float* width, const std::array<const float*, sizeof...(Channel)>& specular, float* width_out,
                  const std::array<float*, sizeof...(Channel)>& specular_out, Rows<Size>& rows,
@@ -146,8 +146,8 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     }
   };
 
-  // Texels in memory: rows of their own, {width, {red, green, blue}}, or elements of a buffer, {rgba + 3, {rgba, rgba + 1,
-  // rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
+  // A Texels points to texels in memory: to separate rows, {width, {red, green, blue}}, or to elements of one buffer,
+  // {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
   template <class T = float, std::size_t Channels = 3>
   struct Texels {
     T* width;
@@ -166,7 +166,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     return out;
   }
 
-  // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
+  // Converts `count` texels, with the same bits. Output may be exactly the elements of input. Returns how many were out of domain.
   template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
                                     const Texels<Out, Channels>& out) noexcept {
@@ -193,7 +193,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     return outside;
   }
 
-  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
+  // Returns true if this compilation gives the values of the fit, as remapc computes them in double precision.
   static bool self_test() noexcept {
     constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.1f, 1.0f, 0.009967952f, 0.9951988f, 1.3e-05f, 1.7e-05f}, {0.2125f, 0.9375f, 0.044822577f, 0.9120625f, 1.4e-05f, 1.7e-05f},
@@ -222,7 +222,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
 
   static constexpr std::size_t kBlock = 128;
 
-  // `size` elements from `at` as a row of floats, filled up with `rest`; where they are a row of floats, that.
+  // Returns `size` elements from `at` as a row of floats, filled up with `rest`. If they are such a row already, returns it.
   template <class T>
   static const float* read(const T* from, std::size_t stride, std::size_t at, std::size_t size, float rest,
                            float (&row)[kBlock]) noexcept {
@@ -232,7 +232,7 @@ struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
     for (std::size_t i = size; i < kBlock; ++i) row[i] = rest;
     return row;
   }
-  // A row for them, and how it gets there.
+  // Returns the row for results: a row of the output, or `row`, which write() then copies to the output.
   template <class T>
   static float* row_of(T* to, std::size_t stride, std::size_t at, std::size_t size, float (&row)[kBlock]) noexcept {
     if constexpr (std::is_same_v<T, float>)

@@ -40,16 +40,16 @@ inline float float_from_bits(std::uint32_t value) noexcept {
   return result;
 }
 
-// Floats that are not negative compare as these integers do. Choices are differences, shifts and masks
-// throughout: where compilers see a comparison they branch on it, and a loop with a branch does not become
-// vectors.
+// Returns an integer. The integers of floats that are not negative compare like the floats. All choices below
+// use differences, shifts and masks, because compilers may turn a comparison into a branch, and do not
+// vectorise a loop with a branch.
 inline std::int32_t order(float value) noexcept { return static_cast<std::int32_t>(bits(value)); }
 
 inline float float_of_order(std::int32_t value) noexcept {
   return float_from_bits(static_cast<std::uint32_t>(value));
 }
 
-// The smaller and the larger of two integers from 0, of two floats from 0.
+// These functions return the smaller or larger of two integers or floats, which must not be negative.
 inline std::int32_t smaller(std::int32_t a, std::int32_t b) noexcept {
   return b + ((a - b) & ((a - b) >> 31));
 }
@@ -59,38 +59,38 @@ inline std::int32_t larger(std::int32_t a, std::int32_t b) noexcept {
 inline float smaller(float a, float b) noexcept { return float_of_order(smaller(order(a), order(b))); }
 inline float larger(float a, float b) noexcept { return float_of_order(larger(order(a), order(b))); }
 
-// 0 in place of a negative value.
+// Replaces a negative value by 0.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value clamped to 0 to 1. Of NaN some number in that range.
+// Clamps a value to 0 to 1. NaN becomes any number in this range.
 inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
-// All bits where a value is not a number.
+// Returns all bits set if the value is NaN, otherwise none.
 inline std::uint32_t nan_mask(float value) noexcept {
   return static_cast<std::uint32_t>((0x7f800000 - order(magnitude(value))) >> 31);
 }
 
-// Sign bit: whether a value is not in 0 to 1, NaN included.
+// Returns a number whose sign bit is set if the value is outside of 0 to 1, or NaN.
 inline std::uint32_t outside_sign(float value) noexcept {
   const std::uint32_t given = bits(value + 0.0f);  // -0 becomes 0
   return given | (bits(1.0f) - given);
 }
 
-// All bits where a < b, both from 0.
+// Returns all bits set if a < b, otherwise none. Both must not be negative.
 inline std::uint32_t less_mask(float a, float b) noexcept {
   return static_cast<std::uint32_t>((order(a) - order(b)) >> 31);
 }
 
-// `a` where the mask has all bits, `b` where it has none.
+// Returns `a` if the mask has all bits set, and `b` if it has none.
 inline float chosen(std::uint32_t mask, float a, float b) noexcept {
   return float_from_bits((bits(a) & mask) | (bits(b) & ~mask));
 }
 
-// The square root of a value from 0, to 5e-6 of it, without the call that may set errno: loops become
-// vectors. The well-known first guess of the reciprocal root (Lomont 2003), twice improved by Newton's
-// method.
+// Returns the square root of a value that is not negative, with a relative error below 5e-6. It does not call
+// std::sqrt, which may set errno, so that compilers vectorise loops. Two steps of Newton's method improve a
+// first guess of the reciprocal root (Lomont 2003).
 inline float approximate_root(float value) noexcept {
   float inverse = float_from_bits(0x5f3759dfu - (bits(value) >> 1));
   const float half = 0.5f * value;
@@ -99,11 +99,11 @@ inline float approximate_root(float value) noexcept {
   return value * inverse;
 }
 
-// What the width of a material is given as.
+// A WidthParameter is the encoding of a material's width.
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
-// What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
+// A Conventions is the meaning of the parameters of both ends. If diffuse_is_scaled, diffuse of the specular
+// workflow is multiplied by 1 - max(specular). A dielectric's diffuse is diffuse_of_albedo times base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -126,7 +126,7 @@ inline float converted_width(const Conventions& use, float own) noexcept {
   return turned ? 1.0f - roughness : roughness;
 }
 
-// Calls `texel` for each of a block, in any order.
+// Calls `texel` for each texel of a block, in any order.
 template <std::size_t kSize, class Texel>
 inline void for_each_texel(const Texel& texel) noexcept {
 #if defined(__clang__)
@@ -139,18 +139,18 @@ inline void for_each_texel(const Texel& texel) noexcept {
   for (std::size_t i = 0; i < kSize; ++i) texel(i);
 }
 
-// Texels that are converted together: their rows stay in the first-level cache.
+// A ClampedBlock holds texels that are converted together. Their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
 struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+// Clamps a value to 0 to 1. NaN stays, and by order() it is larger than any number.
 inline float clamped_or_nan(float value) noexcept {
   return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
-// Holds rows in 0 to 1. Returns how many texels that changed.
+// Clamps rows to 0 to 1. Returns how many texels this changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
                         ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
@@ -163,9 +163,9 @@ inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
   return count;
 }
 
-// Rows of any length by `convert`, which takes blocks of kSize texels and returns how many were outside. What
-// is left at the end is a block too, filled up with black, so that every texel is computed by the same
-// instructions.
+// Converts rows of any length by `convert`, which converts a block of kSize texels and returns how many were
+// outside. The rest at the end is filled up to a block with black, so that the same instructions compute every
+// texel.
 template <std::size_t kSize, std::size_t kIn, std::size_t kOut, class Convert>
 inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn> in,
                                 std::array<float*, kOut> out, const Convert& convert) noexcept {
@@ -190,7 +190,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
   return outside;
 }
 
-// Width is the last row of both ends.
+// Converts the width, which is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
 inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
@@ -198,8 +198,8 @@ inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>
 
 inline constexpr std::size_t kMetallicBlock = 16;
 
-// A block of the specular workflow: diffuse reflectance as the surface has it (three rows), F0 (three rows),
-// and the width as it is given.
+// A SpecularTexels is a block of the specular workflow. It has the diffuse reflectance of the surface (three
+// rows), F0 (three rows), and the width in its own encoding.
 struct SpecularTexels {
   ClampedBlock<7, kMetallicBlock> clamped;
   std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
@@ -226,15 +226,14 @@ inline float or_nan(float value, std::uint32_t mask) noexcept {
   return float_from_bits(bits(value) | (mask & 0x7fffffffu));
 }
 
-// Functions of a texel are inlined whatever a compiler thinks of their size: only then its loop becomes
-// vectors.
+// Functions of a texel are always inlined, because compilers vectorise its loop only then.
 //
-// The projection onto what base color and metallic can say: least squares over diffuse reflectance and F0,
-// where errors count as they do in a picture: diffuse^2 + 2 mixed diffuse f0 + specular f0^2, a channel each.
-// With the constant part of Schlick's Fresnel equal on both sides, the difference of two pictures is such a
-// form; its numbers were fitted to pictures of 400 materials under eight lights, alpha 0.03 to 1. A mirror
-// shows lamps as points and an environment whole: `seen` is what F0 weighs on the average of both (decision
-// 058).
+// The projection finds the base color and metallic that are closest to a texel. It uses least squares over
+// diffuse reflectance and F0. Errors have the weight that they have in a picture: in each channel diffuse^2 +
+// 2 mixed diffuse f0 + specular f0^2. The difference of two pictures has this form if the constant part of
+// Schlick's Fresnel is equal in both. Its numbers were fitted to pictures of 400 materials under eight lights,
+// with alpha from 0.03 to 1. A mirror shows lamps as points, but an environment as a whole. `seen` is the
+// weight of F0 on the average of both (decision 058).
 struct Gram {
   float mixed, specular;
 };
@@ -246,8 +245,8 @@ struct Gram {
   return {seen * smaller(correlation, 0.985f) * approximate_root(specular), seen * seen * specular};
 }
 
-// A channel: diffuse reflectance, F0, and the weight of an error in either. Pictures are seen through a
-// display curve, so errors of a dark channel count more.
+// A Channel has diffuse reflectance, F0, and the weight of an error in either. Errors in a dark channel have
+// more weight, because a display curve makes them more visible.
 struct Channel {
   float diffuse, f0, weight;
 };
@@ -272,8 +271,9 @@ struct Texel {
   return texel.red.weight + texel.green.weight + texel.blue.weight;
 }
 
-// Of which `share` = 1 - metallic is dielectric: diffuse reflectance and F0 of albedo 1 above those of albedo
-// 0, and the least squares for the albedo of a channel: by_diffuse diffuse + by_f0 (f0 - dielectric).
+// A Blend is a material whose dielectric fraction is `share` = 1 - metallic. It has the diffuse reflectance and
+// F0 that albedo 1 adds to albedo 0, and the F0 of its dielectric. By least squares, the albedo of a channel is
+// by_diffuse diffuse + by_f0 (f0 - dielectric).
 struct Blend {
   float diffuse, f0, dielectric;
   float by_diffuse, by_f0;
@@ -286,12 +286,12 @@ struct Blend {
   return {diffuse, f0, use.dielectric_f0 * share, by_diffuse * inverse, by_f0 * inverse};
 }
 
-// Least squares before it is clamped to 0 to 1.
+// Returns the albedo by least squares, before it is clamped to 0 to 1.
 [[gnu::always_inline]] inline float free_albedo(const Blend& blend, float diffuse, float f0) noexcept {
   return blend.by_diffuse * diffuse + blend.by_f0 * (f0 - blend.dielectric);
 }
 
-// The error that an albedo leaves in a channel.
+// Returns the error of an albedo in a channel.
 [[gnu::always_inline]] inline float channel_error(const Blend& blend, const Gram& gram,
                                                   const Channel& channel, float albedo) noexcept {
   const float diffuse = blend.diffuse * albedo - channel.diffuse;
@@ -305,8 +305,8 @@ struct Blend {
   return channel_error(blend, gram, channel, clamped(free_albedo(blend, channel.diffuse, channel.f0)));
 }
 
-// What the best base color of this share leaves over the channels, each clamped to 0 to 1. Rounding may make it
-// negative.
+// Returns the error of the best base color for this share, clamped to 0 to 1, over all channels. Rounding may
+// make the error negative.
 [[gnu::always_inline]] inline float error_of(const Texel& texel, const Conventions& use,
                                              float share) noexcept {
   const Blend blend = blend_of(texel.gram, use, share);
@@ -314,20 +314,19 @@ struct Blend {
          best_error(blend, texel.gram, texel.blue);
 }
 
-// As long as no albedo is clamped, the error over n, the share, is a quartic over a quadratic: with
-//   q(n) = k f n^2 - (d + k s) n + d   for a channel of diffuse d and F0 s, k the diffuse of albedo 1, f a
-//   dielectric's F0,
-// the error is scale sum w q^2 / quadratic. The roots of one q are those of equation (3) of Sztrajman et al.
-// 2019.
+// If no albedo is clamped, the error as a function of the share n is a quartic divided by a quadratic. For a
+// channel with diffuse d and F0 s, the diffuse k of albedo 1, and the F0 f of dielectrics, let
+//   q(n) = k f n^2 - (d + k s) n + d.
+// The error is scale sum w q^2 / quadratic. q has the same roots as equation (3) of Sztrajman et al. 2019.
 struct ErrorCurve {
   float q4, q3, q2, q1, q0;
   float u2, u1, u0;
   float scale;
-  float prior;       // times n (1 - n) counts against an answer: materials are mostly metals or not
+  float prior;       // times n (1 - n), is added to the error, because few materials are partly metal
   float r2, r1, r0;  // sum w (d + k s) q = r2 n^2 - r1 n + r0
 };
 
-// Sums over the channels of w a b.
+// Returns a sum over the channels, each times its weight.
 [[gnu::always_inline]] inline float weighted_sum(const Texel& texel, float red, float green,
                                                  float blue) noexcept {
   return texel.red.weight * red + texel.green.weight * green + texel.blue.weight * blue;
@@ -363,8 +362,8 @@ struct ErrorCurve {
   return curve;
 }
 
-// One step of Newton's method towards the least error, downhill where the curve bends down, of 0.25 at most.
-// The prior has no part in it: it chooses among answers and moves none.
+// Does one step of Newton's method towards the least error, of at most 0.25, and downhill if the curve bends
+// down. The step ignores the prior, which only chooses among solutions and does not move them.
 [[gnu::always_inline]] inline float improved(const ErrorCurve& curve, float n) noexcept {
   const float q = (((curve.q4 * n + curve.q3) * n + curve.q2) * n + curve.q1) * n + curve.q0;
   const float dq = ((4.0f * curve.q4 * n + 3.0f * curve.q3) * n + 2.0f * curve.q2) * n + curve.q1;
@@ -381,11 +380,11 @@ struct ErrorCurve {
   return clamped(n - float_from_bits(bits(length) | (bits(step) & 0x80000000u)));
 }
 
-// Shares below it are metals, with what an 8-bit map makes of them.
+// Shares below this are metals, because 8-bit maps do not hold exact metals.
 inline constexpr float kMetalShare = 0.05f;
 
-// From 0, so that order() compares it. All bits of `no_metal`: a metal pays the prior too, which else is one
-// on what lies between.
+// Returns the error with the prior. It is not negative, so that order() compares it. If `no_metal` has all bits
+// set, the prior is also added for a metal. Otherwise, it is only added for partly metallic shares.
 [[gnu::always_inline]] inline float penalised_error(const Texel& texel, const Conventions& use,
                                                     const ErrorCurve& curve, std::uint32_t no_metal,
                                                     float n) noexcept {
@@ -393,16 +392,16 @@ inline constexpr float kMetalShare = 0.05f;
   return from_zero(error_of(texel, use, n) + curve.prior * factor * (1.0f - n));
 }
 
-// All bits where no channel has more F0 than a dielectric: no metal is as dark as that, so of answers that
-// look alike the one with less of it is meant.
+// Returns all bits set if no channel has a larger F0 than a dielectric. No metal is so dark. So if solutions
+// look alike, the less metallic one is right.
 [[gnu::always_inline]] inline std::uint32_t no_metal_mask(const Texel& texel,
                                                           const Conventions& use) noexcept {
   return less_mask(larger(larger(texel.red.f0, texel.green.f0), texel.blue.f0), use.dielectric_f0);
 }
 
-// The share of least error and prior: Newton's method from both roots of the sum of all q, which one equation
-// (3) for all channels would have, and from the metal. Two of these fall where a dark dielectric looks like a
-// blend.
+// Returns the share with the least error and prior. Newton's method starts at both roots of the sum of all q
+// (equation (3) for all channels together), and at a pure metal. A dark dielectric that looks like a blend has
+// a solution close to two of these starts.
 [[gnu::always_inline]] inline float best_share(const Texel& texel, const Conventions& use,
                                                float prior) noexcept {
   const ErrorCurve curve = error_curve(texel, use, prior);
@@ -418,9 +417,9 @@ inline constexpr float kMetalShare = 0.05f;
   return chosen(less_mask(of_metal, smaller(of_lower, of_upper)), metal, root);
 }
 
-// F0 that is a dielectric's in every channel, as 8 bits in sRGB round it (0.04 to 0.0395): then metallic 0 is
-// exact, and what else is exact is a metal as dark as that, which there is none of. Rounded maps of dark
-// dielectrics would become such metals.
+// If F0 differs by less than this from a dielectric's in every channel, metallic is 0. This is an exact
+// solution, up to rounding in 8-bit sRGB (0.04 becomes 0.0395). The only other exact solution is a metal that
+// is darker than any real metal. Rounded maps of dark dielectrics would become such metals.
 inline constexpr float kSameF0 = 0.0005f;
 
 [[gnu::always_inline]] inline std::uint32_t dielectric_mask(const Texel& texel,
@@ -431,8 +430,8 @@ inline constexpr float kSameF0 = 0.0005f;
   return less_mask(difference, kSameF0);
 }
 
-// A loop of its own: what a lambda calls need not be inlined. Conventions of the width would be branches in
-// it.
+// This is a separate loop, because compilers may not inline what a lambda calls. It gets alpha, because the
+// conversion of widths would need branches.
 inline void find_shares(const Conventions& use, float prior, const SpecularTexels& texels, const float* alpha,
                         float* share) noexcept {
 #if defined(__clang__)
@@ -448,8 +447,8 @@ inline void find_shares(const Conventions& use, float prior, const SpecularTexel
   }
 }
 
-// A surface without a highlight has no width either, but the metallic workflow adds the highlight of its
-// dielectrics: it shows least where it is widest. Below a fortieth of their F0 the width goes there in proportion.
+// Widens surfaces with little highlight. The metallic workflow adds the highlight of its dielectrics, which is
+// least visible if it is widest. If F0 falls from a fortieth of theirs to 0, the width rises to the widest.
 inline void widen_matte(const Conventions& use, ClampedBlock<7, kMetallicBlock>& block) noexcept {
   const float widest = use.width_in == WidthParameter::kGlossiness ? 0.0f : 1.0f;
   const float scale = use.dielectric_f0 > 0.0f ? 40.0f / use.dielectric_f0 : 1e30f;
@@ -460,7 +459,7 @@ inline void widen_matte(const Conventions& use, ClampedBlock<7, kMetallicBlock>&
   });
 }
 
-// Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width.
+// Converts diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width.
 inline std::size_t project(const Conventions& use, float prior, const std::array<const float*, 7>& in,
                            const std::array<float*, 5>& out) noexcept {
   constexpr std::size_t kBlock = kMetallicBlock;
@@ -501,10 +500,10 @@ inline std::size_t evaluate_rows(std::size_t count, const std::array<const float
   });
 }
 
-// Texels that become rows together.
+// This many texels are copied to rows at a time.
 inline constexpr std::size_t kTexels = 128;
 
-// Texels anywhere by `convert`, which takes rows and returns how many were outside.
+// Converts texels with any strides by `convert`, which needs rows and returns how many texels were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
 inline std::size_t convert_texels(std::size_t count, const std::array<const T*, kIn>& in,
                                   const std::array<std::size_t, kIn>& in_strides, const std::array<T*, kOut>& out,
@@ -538,7 +537,7 @@ inline std::size_t convert_texels(std::size_t count, const std::array<const T*, 
 #pragma clang diagnostic pop
 #endif
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct gltf_specgloss_to_gltf {
   static constexpr const char* kId = "gltf_specgloss_to_gltf";
   static constexpr const char* kSourceModel = "gltf-specgloss";
@@ -563,8 +562,8 @@ struct gltf_specgloss_to_gltf {
     float width;  // square root of the microfacet width, 0 to 1
   };
 
-  // Texels in memory: rows of their own, or elements of buffers, with the elements from one texel to the next. T is float, or any
-  // type that static_cast converts to float and back.
+  // These point to texels in memory: to separate rows, or to elements of buffers. A stride is the number of elements from one
+  // texel to the next. T is float, or any type that static_cast converts to float and back.
   template <class T = float>
   struct InputTexels {
     std::array<T*, 3> diffuse;
@@ -580,8 +579,8 @@ struct gltf_specgloss_to_gltf {
     std::size_t base_color_stride = 1, metallic_stride = 1, width_stride = 1;
   };
 
-  // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
-  // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
+  // Converts `count` texels. Output may be exactly elements of input. Texels do not depend on each other, so calls for parts give
+  // the same bits. Values are clamped to 0 to 1, and NaN makes the outputs that depend on it NaN. Returns the number of texels
   // that had such values.
   template <class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
@@ -591,7 +590,7 @@ struct gltf_specgloss_to_gltf {
         {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, {out.base_color_stride, out.base_color_stride, out.base_color_stride, out.metallic_stride, out.width_stride}, gltf_specgloss_to_gltf_detail::evaluate_rows);
   }
 
-  // One texel: rows of one.
+  // Converts one texel.
   static Output evaluate(const Input& in) noexcept {
     Output out{};
     gltf_specgloss_to_gltf_detail::evaluate_rows(1, {&in.diffuse[0], &in.diffuse[1], &in.diffuse[2], &in.specular[0], &in.specular[1], &in.specular[2], &in.width},
@@ -599,7 +598,7 @@ struct gltf_specgloss_to_gltf {
     return out;
   }
 
-  // Whether all values of the texel are in 0 to 1.
+  // Returns true if all values of the texel are from 0 to 1.
   static bool in_domain(const Input& in) noexcept {
     std::uint32_t outside = 0;
     for (const float value : {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width})
@@ -607,7 +606,7 @@ struct gltf_specgloss_to_gltf {
     return outside >> 31 == 0;
   }
 
-  // Whether this compilation gives the values that remapc computes, to 1e-4f: single texels and rows.
+  // Returns true if this compilation gives the values that remapc computes, within 1e-4f.
   static bool self_test() noexcept {
     constexpr std::size_t kCount = 8, kInputRows = 7, kOutputRows = 5;
     constexpr float kIn[kInputRows][kCount] = {

@@ -26,7 +26,7 @@
 
 namespace remap {
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct mitsuba_ggx_to_mitsuba3_principled_metal {
   static constexpr const char* kId = "mitsuba_ggx_to_mitsuba3_principled_metal";
   static constexpr const char* kSourceModel = "mitsuba/ggx";
@@ -36,18 +36,18 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
   static constexpr const char* kSourceSpecular = "f0";
   static constexpr const char* kTargetSpecular = "base_color";
 
-  // The numbers of this converter, and what it does.
+  // A Form holds the numbers of this converter and its formula.
   struct Form {
-    // What was measured. Beyond, both parameters go on in proportion, but widths are clamped; specular below 0 is treated as 0.
-    // Such texels are counted. NaN and infinity make all outputs of their texel NaN.
+    // This is the measured range. Beyond it, widths are clamped, and both parameters continue in proportion. Specular below 0 is
+    // treated as 0. Such texels are counted. NaN and infinity make all outputs of their texel NaN.
     static constexpr float width_min = 0.01f, width_max = 1.0f;
     static constexpr float specular_min = 0.0f, specular_max = 1.0f;
     static constexpr float width_from = 0.0f, width_to = 1.0f;  // to which widths are clamped
     static constexpr float alpha_min = 0.01f, least_alpha = 0.0f;  // of the source, of the target
     static constexpr float pole = 1.0f;
 
-    // Target alpha is alpha times the first, target specular s times the second; t = s / (s + pole). Alpha takes t of the largest
-    // channel.
+    // Target alpha is alpha times the first factor. Target specular is s times the second. t is s / (s + pole), for alpha with s
+    // of the largest channel.
     static float alpha_factor(float, float) noexcept {
       return 1.0f;
     }
@@ -57,8 +57,8 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     static float held(float s) noexcept { return least(s, specular_max); }
     static float to_alpha(float own) noexcept { return own; }
     static float from_alpha(float alpha) noexcept { return root(alpha); }
-    // The square root to the last digit but one, by Newton's method from a guess: compilers make no vectors of std::sqrt, which
-    // sets errno.
+    // Returns the square root, with all digits except the last, by Newton's method from a guess. Compilers do not vectorise
+    // std::sqrt, because it sets errno.
     static float root(float x) noexcept {
       float inverse = of_order(0x5f375a86 - (order(x) >> 1));
       inverse *= 1.5f - 0.5f * x * inverse * inverse;
@@ -67,7 +67,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
       return x * inverse;
     }
 
-    // Floats from 0 compare as integers do: compilers make vectors of that, whatever their flags.
+    // Floats that are not negative compare like these integers. Compilers vectorise this with any flags.
     static std::int32_t order(float value) noexcept {
       std::int32_t result = 0;
       std::memcpy(&result, &value, sizeof result);
@@ -81,7 +81,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     static float least(float a, float b) noexcept { return of_order(order(a) < order(b) ? order(a) : order(b)); }
     static float most(float a, float b) noexcept { return of_order(order(a) > order(b) ? order(a) : order(b)); }
 
-    // Texels are converted in blocks of rows, whose length is a constant for the same reason.
+    // Texels are converted in blocks of rows. Their length is a constant, so that compilers vectorise the loops.
     template <std::size_t Size>
     struct Rows {
       float alpha[Size], top[Size], more[Size];  // top: the largest channel of specular
@@ -111,7 +111,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
       }
     }
 
-    // Channels are no loop: gcc would join their iterations, and be slower.
+    // Channels are not a loop, because gcc would join the iterations, which is slower.
     template <std::size_t Size, std::size_t... Channel>
     void convert(const float* width, const std::array<const float*, sizeof...(Channel)>& specular, float* width_out,
                  const std::array<float*, sizeof...(Channel)>& specular_out, Rows<Size>& rows,
@@ -155,8 +155,8 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     }
   };
 
-  // Texels in memory: rows of their own, {width, {red, green, blue}}, or elements of a buffer, {rgba + 3, {rgba, rgba + 1,
-  // rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
+  // A Texels points to texels in memory: to separate rows, {width, {red, green, blue}}, or to elements of one buffer,
+  // {rgba + 3, {rgba, rgba + 1, rgba + 2}, 4, 4}. T is float, or any type that static_cast converts to float and back.
   template <class T = float, std::size_t Channels = 3>
   struct Texels {
     T* width;
@@ -175,7 +175,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     return out;
   }
 
-  // The same bits of `count` texels. Output may be exactly the elements of input. Returns how many were out of domain.
+  // Converts `count` texels, with the same bits. Output may be exactly the elements of input. Returns how many were out of domain.
   template <std::size_t Channels = 3, class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const Texels<In, Channels>& in,
                                     const Texels<Out, Channels>& out) noexcept {
@@ -202,7 +202,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     return outside;
   }
 
-  // Whether this compilation gives the values of the fit, evaluated in double precision by remapc: single texels and rows.
+  // Returns true if this compilation gives the values of the fit, as remapc computes them in double precision.
   static bool self_test() noexcept {
     constexpr float kGolden[13][6] = {  // width and specular; the target's; their tolerances
         {0.01f, 1.0f, 0.1f, 1.0f, 6.5e-06f, 1.7e-06f}, {0.13375f, 0.9375f, 0.36571848f, 0.9375f, 2.3e-06f, 1.7e-06f},
@@ -231,7 +231,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
 
   static constexpr std::size_t kBlock = 128;
 
-  // `size` elements from `at` as a row of floats, filled up with `rest`; where they are a row of floats, that.
+  // Returns `size` elements from `at` as a row of floats, filled up with `rest`. If they are such a row already, returns it.
   template <class T>
   static const float* read(const T* from, std::size_t stride, std::size_t at, std::size_t size, float rest,
                            float (&row)[kBlock]) noexcept {
@@ -241,7 +241,7 @@ struct mitsuba_ggx_to_mitsuba3_principled_metal {
     for (std::size_t i = size; i < kBlock; ++i) row[i] = rest;
     return row;
   }
-  // A row for them, and how it gets there.
+  // Returns the row for results: a row of the output, or `row`, which write() then copies to the output.
   template <class T>
   static float* row_of(T* to, std::size_t stride, std::size_t at, std::size_t size, float (&row)[kBlock]) noexcept {
     if constexpr (std::is_same_v<T, float>)

@@ -40,16 +40,16 @@ inline float float_from_bits(std::uint32_t value) noexcept {
   return result;
 }
 
-// Floats that are not negative compare as these integers do. Choices are differences, shifts and masks
-// throughout: where compilers see a comparison they branch on it, and a loop with a branch does not become
-// vectors.
+// Returns an integer. The integers of floats that are not negative compare like the floats. All choices below
+// use differences, shifts and masks, because compilers may turn a comparison into a branch, and do not
+// vectorise a loop with a branch.
 inline std::int32_t order(float value) noexcept { return static_cast<std::int32_t>(bits(value)); }
 
 inline float float_of_order(std::int32_t value) noexcept {
   return float_from_bits(static_cast<std::uint32_t>(value));
 }
 
-// The smaller and the larger of two integers from 0, of two floats from 0.
+// These functions return the smaller or larger of two integers or floats, which must not be negative.
 inline std::int32_t smaller(std::int32_t a, std::int32_t b) noexcept {
   return b + ((a - b) & ((a - b) >> 31));
 }
@@ -59,38 +59,38 @@ inline std::int32_t larger(std::int32_t a, std::int32_t b) noexcept {
 inline float smaller(float a, float b) noexcept { return float_of_order(smaller(order(a), order(b))); }
 inline float larger(float a, float b) noexcept { return float_of_order(larger(order(a), order(b))); }
 
-// 0 in place of a negative value.
+// Replaces a negative value by 0.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value clamped to 0 to 1. Of NaN some number in that range.
+// Clamps a value to 0 to 1. NaN becomes any number in this range.
 inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
-// All bits where a value is not a number.
+// Returns all bits set if the value is NaN, otherwise none.
 inline std::uint32_t nan_mask(float value) noexcept {
   return static_cast<std::uint32_t>((0x7f800000 - order(magnitude(value))) >> 31);
 }
 
-// Sign bit: whether a value is not in 0 to 1, NaN included.
+// Returns a number whose sign bit is set if the value is outside of 0 to 1, or NaN.
 inline std::uint32_t outside_sign(float value) noexcept {
   const std::uint32_t given = bits(value + 0.0f);  // -0 becomes 0
   return given | (bits(1.0f) - given);
 }
 
-// All bits where a < b, both from 0.
+// Returns all bits set if a < b, otherwise none. Both must not be negative.
 inline std::uint32_t less_mask(float a, float b) noexcept {
   return static_cast<std::uint32_t>((order(a) - order(b)) >> 31);
 }
 
-// `a` where the mask has all bits, `b` where it has none.
+// Returns `a` if the mask has all bits set, and `b` if it has none.
 inline float chosen(std::uint32_t mask, float a, float b) noexcept {
   return float_from_bits((bits(a) & mask) | (bits(b) & ~mask));
 }
 
-// The square root of a value from 0, to 5e-6 of it, without the call that may set errno: loops become
-// vectors. The well-known first guess of the reciprocal root (Lomont 2003), twice improved by Newton's
-// method.
+// Returns the square root of a value that is not negative, with a relative error below 5e-6. It does not call
+// std::sqrt, which may set errno, so that compilers vectorise loops. Two steps of Newton's method improve a
+// first guess of the reciprocal root (Lomont 2003).
 inline float approximate_root(float value) noexcept {
   float inverse = float_from_bits(0x5f3759dfu - (bits(value) >> 1));
   const float half = 0.5f * value;
@@ -99,11 +99,11 @@ inline float approximate_root(float value) noexcept {
   return value * inverse;
 }
 
-// What the width of a material is given as.
+// A WidthParameter is the encoding of a material's width.
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
-// What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
+// A Conventions is the meaning of the parameters of both ends. If diffuse_is_scaled, diffuse of the specular
+// workflow is multiplied by 1 - max(specular). A dielectric's diffuse is diffuse_of_albedo times base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -126,7 +126,7 @@ inline float converted_width(const Conventions& use, float own) noexcept {
   return turned ? 1.0f - roughness : roughness;
 }
 
-// Calls `texel` for each of a block, in any order.
+// Calls `texel` for each texel of a block, in any order.
 template <std::size_t kSize, class Texel>
 inline void for_each_texel(const Texel& texel) noexcept {
 #if defined(__clang__)
@@ -139,18 +139,18 @@ inline void for_each_texel(const Texel& texel) noexcept {
   for (std::size_t i = 0; i < kSize; ++i) texel(i);
 }
 
-// Texels that are converted together: their rows stay in the first-level cache.
+// A ClampedBlock holds texels that are converted together. Their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
 struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+// Clamps a value to 0 to 1. NaN stays, and by order() it is larger than any number.
 inline float clamped_or_nan(float value) noexcept {
   return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
-// Holds rows in 0 to 1. Returns how many texels that changed.
+// Clamps rows to 0 to 1. Returns how many texels this changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
                         ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
@@ -163,9 +163,9 @@ inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
   return count;
 }
 
-// Rows of any length by `convert`, which takes blocks of kSize texels and returns how many were outside. What
-// is left at the end is a block too, filled up with black, so that every texel is computed by the same
-// instructions.
+// Converts rows of any length by `convert`, which converts a block of kSize texels and returns how many were
+// outside. The rest at the end is filled up to a block with black, so that the same instructions compute every
+// texel.
 template <std::size_t kSize, std::size_t kIn, std::size_t kOut, class Convert>
 inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn> in,
                                 std::array<float*, kOut> out, const Convert& convert) noexcept {
@@ -190,7 +190,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
   return outside;
 }
 
-// Width is the last row of both ends.
+// Converts the width, which is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
 inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
@@ -198,8 +198,8 @@ inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>
 
 inline constexpr std::size_t kMetallicBlock = 16;
 
-// A block of the specular workflow: diffuse reflectance as the surface has it (three rows), F0 (three rows),
-// and the width as it is given.
+// A SpecularTexels is a block of the specular workflow. It has the diffuse reflectance of the surface (three
+// rows), F0 (three rows), and the width in its own encoding.
 struct SpecularTexels {
   ClampedBlock<7, kMetallicBlock> clamped;
   std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
@@ -226,8 +226,8 @@ inline float or_nan(float value, std::uint32_t mask) noexcept {
   return float_from_bits(bits(value) | (mask & 0x7fffffffu));
 }
 
-// One channel as if it stood alone: Sztrajman et al. 2019, equation (3), which inverts equation (2). With
-// diffuse_of_albedo other than 1, the same inverse of that blend.
+// A LoneChannel is the solution of equation (3) for one channel, which inverts equation (2) (Sztrajman et al.
+// 2019). It also holds if diffuse_of_albedo is not 1.
 struct LoneChannel {
   float albedo, metallic;
 };
@@ -236,13 +236,14 @@ inline LoneChannel lone_channel(const Conventions& use, float diffuse, float f0)
   const float k = use.diffuse_of_albedo, f = use.dielectric_f0;
   const float sum = k * f0 + diffuse;
   const float albedo = (sum + std::sqrt(from_zero(sum * sum - 4.0f * k * f * diffuse))) / (2.0f * k);
-  // A channel of F0 f says nothing of metallic where its albedo is f too.
+  // If F0 and albedo of a channel are both f, every metallic is a solution.
   const float above = albedo - f;
   const float metallic = magnitude(above) < 1e-6f ? 0.0f : (f0 - f) / above;
   return {clamped(albedo), clamped(metallic)};
 }
 
-// Each channel keeps its own albedo; metallic is the mean over them, plain or weighted by albedo.
+// Converts by equation (3). Each channel keeps its albedo. Metallic is the mean over the channels, or with
+// `by_albedo` the mean weighted by albedo.
 inline std::size_t solve_equation_3(const Conventions& use, bool by_albedo,
                                     const std::array<const float*, 7>& in,
                                     const std::array<float*, 5>& out) noexcept {
@@ -273,10 +274,10 @@ inline std::size_t evaluate_rows(std::size_t count, const std::array<const float
   });
 }
 
-// Texels that become rows together.
+// This many texels are copied to rows at a time.
 inline constexpr std::size_t kTexels = 128;
 
-// Texels anywhere by `convert`, which takes rows and returns how many were outside.
+// Converts texels with any strides by `convert`, which needs rows and returns how many texels were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
 inline std::size_t convert_texels(std::size_t count, const std::array<const T*, kIn>& in,
                                   const std::array<std::size_t, kIn>& in_strides, const std::array<T*, kOut>& out,
@@ -310,7 +311,7 @@ inline std::size_t convert_texels(std::size_t count, const std::array<const T*, 
 #pragma clang diagnostic pop
 #endif
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct specular_to_metallic_mean_sztrajman_2019 {
   static constexpr const char* kId = "specular_to_metallic_mean_sztrajman_2019";
   static constexpr const char* kSourceModel = "specular";
@@ -335,8 +336,8 @@ struct specular_to_metallic_mean_sztrajman_2019 {
     float width;  // square root of the microfacet width, 0 to 1
   };
 
-  // Texels in memory: rows of their own, or elements of buffers, with the elements from one texel to the next. T is float, or any
-  // type that static_cast converts to float and back.
+  // These point to texels in memory: to separate rows, or to elements of buffers. A stride is the number of elements from one
+  // texel to the next. T is float, or any type that static_cast converts to float and back.
   template <class T = float>
   struct InputTexels {
     std::array<T*, 3> diffuse;
@@ -352,8 +353,8 @@ struct specular_to_metallic_mean_sztrajman_2019 {
     std::size_t base_color_stride = 1, metallic_stride = 1, width_stride = 1;
   };
 
-  // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
-  // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
+  // Converts `count` texels. Output may be exactly elements of input. Texels do not depend on each other, so calls for parts give
+  // the same bits. Values are clamped to 0 to 1, and NaN makes the outputs that depend on it NaN. Returns the number of texels
   // that had such values.
   template <class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
@@ -363,7 +364,7 @@ struct specular_to_metallic_mean_sztrajman_2019 {
         {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, {out.base_color_stride, out.base_color_stride, out.base_color_stride, out.metallic_stride, out.width_stride}, specular_to_metallic_mean_sztrajman_2019_detail::evaluate_rows);
   }
 
-  // One texel: rows of one.
+  // Converts one texel.
   static Output evaluate(const Input& in) noexcept {
     Output out{};
     specular_to_metallic_mean_sztrajman_2019_detail::evaluate_rows(1, {&in.diffuse[0], &in.diffuse[1], &in.diffuse[2], &in.specular[0], &in.specular[1], &in.specular[2], &in.width},
@@ -371,7 +372,7 @@ struct specular_to_metallic_mean_sztrajman_2019 {
     return out;
   }
 
-  // Whether all values of the texel are in 0 to 1.
+  // Returns true if all values of the texel are from 0 to 1.
   static bool in_domain(const Input& in) noexcept {
     std::uint32_t outside = 0;
     for (const float value : {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width})
@@ -379,7 +380,7 @@ struct specular_to_metallic_mean_sztrajman_2019 {
     return outside >> 31 == 0;
   }
 
-  // Whether this compilation gives the values that remapc computes, to 1e-4f: single texels and rows.
+  // Returns true if this compilation gives the values that remapc computes, within 1e-4f.
   static bool self_test() noexcept {
     constexpr std::size_t kCount = 8, kInputRows = 7, kOutputRows = 5;
     constexpr float kIn[kInputRows][kCount] = {

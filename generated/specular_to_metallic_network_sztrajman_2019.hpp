@@ -42,16 +42,16 @@ inline float float_from_bits(std::uint32_t value) noexcept {
   return result;
 }
 
-// Floats that are not negative compare as these integers do. Choices are differences, shifts and masks
-// throughout: where compilers see a comparison they branch on it, and a loop with a branch does not become
-// vectors.
+// Returns an integer. The integers of floats that are not negative compare like the floats. All choices below
+// use differences, shifts and masks, because compilers may turn a comparison into a branch, and do not
+// vectorise a loop with a branch.
 inline std::int32_t order(float value) noexcept { return static_cast<std::int32_t>(bits(value)); }
 
 inline float float_of_order(std::int32_t value) noexcept {
   return float_from_bits(static_cast<std::uint32_t>(value));
 }
 
-// The smaller and the larger of two integers from 0, of two floats from 0.
+// These functions return the smaller or larger of two integers or floats, which must not be negative.
 inline std::int32_t smaller(std::int32_t a, std::int32_t b) noexcept {
   return b + ((a - b) & ((a - b) >> 31));
 }
@@ -61,38 +61,38 @@ inline std::int32_t larger(std::int32_t a, std::int32_t b) noexcept {
 inline float smaller(float a, float b) noexcept { return float_of_order(smaller(order(a), order(b))); }
 inline float larger(float a, float b) noexcept { return float_of_order(larger(order(a), order(b))); }
 
-// 0 in place of a negative value.
+// Replaces a negative value by 0.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
 
-// The value clamped to 0 to 1. Of NaN some number in that range.
+// Clamps a value to 0 to 1. NaN becomes any number in this range.
 inline float clamped(float value) noexcept { return smaller(from_zero(value), 1.0f); }
 
 inline float magnitude(float value) noexcept { return float_from_bits(bits(value) & 0x7fffffffu); }
 
-// All bits where a value is not a number.
+// Returns all bits set if the value is NaN, otherwise none.
 inline std::uint32_t nan_mask(float value) noexcept {
   return static_cast<std::uint32_t>((0x7f800000 - order(magnitude(value))) >> 31);
 }
 
-// Sign bit: whether a value is not in 0 to 1, NaN included.
+// Returns a number whose sign bit is set if the value is outside of 0 to 1, or NaN.
 inline std::uint32_t outside_sign(float value) noexcept {
   const std::uint32_t given = bits(value + 0.0f);  // -0 becomes 0
   return given | (bits(1.0f) - given);
 }
 
-// All bits where a < b, both from 0.
+// Returns all bits set if a < b, otherwise none. Both must not be negative.
 inline std::uint32_t less_mask(float a, float b) noexcept {
   return static_cast<std::uint32_t>((order(a) - order(b)) >> 31);
 }
 
-// `a` where the mask has all bits, `b` where it has none.
+// Returns `a` if the mask has all bits set, and `b` if it has none.
 inline float chosen(std::uint32_t mask, float a, float b) noexcept {
   return float_from_bits((bits(a) & mask) | (bits(b) & ~mask));
 }
 
-// The square root of a value from 0, to 5e-6 of it, without the call that may set errno: loops become
-// vectors. The well-known first guess of the reciprocal root (Lomont 2003), twice improved by Newton's
-// method.
+// Returns the square root of a value that is not negative, with a relative error below 5e-6. It does not call
+// std::sqrt, which may set errno, so that compilers vectorise loops. Two steps of Newton's method improve a
+// first guess of the reciprocal root (Lomont 2003).
 inline float approximate_root(float value) noexcept {
   float inverse = float_from_bits(0x5f3759dfu - (bits(value) >> 1));
   const float half = 0.5f * value;
@@ -101,11 +101,11 @@ inline float approximate_root(float value) noexcept {
   return value * inverse;
 }
 
-// What the width of a material is given as.
+// A WidthParameter is the encoding of a material's width.
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
-// What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
+// A Conventions is the meaning of the parameters of both ends. If diffuse_is_scaled, diffuse of the specular
+// workflow is multiplied by 1 - max(specular). A dielectric's diffuse is diffuse_of_albedo times base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -128,7 +128,7 @@ inline float converted_width(const Conventions& use, float own) noexcept {
   return turned ? 1.0f - roughness : roughness;
 }
 
-// Calls `texel` for each of a block, in any order.
+// Calls `texel` for each texel of a block, in any order.
 template <std::size_t kSize, class Texel>
 inline void for_each_texel(const Texel& texel) noexcept {
 #if defined(__clang__)
@@ -141,18 +141,18 @@ inline void for_each_texel(const Texel& texel) noexcept {
   for (std::size_t i = 0; i < kSize; ++i) texel(i);
 }
 
-// Texels that are converted together: their rows stay in the first-level cache.
+// A ClampedBlock holds texels that are converted together. Their rows stay in the first-level cache.
 template <std::size_t kRows, std::size_t kSize>
 struct ClampedBlock {
   float row[kRows][kSize];
 };
 
-// The value clamped to 0 to 1; NaN stays, and is larger than any number by order().
+// Clamps a value to 0 to 1. NaN stays, and by order() it is larger than any number.
 inline float clamped_or_nan(float value) noexcept {
   return float_from_bits(bits(clamped(value)) | (nan_mask(value) & 0x7fffffffu));
 }
 
-// Holds rows in 0 to 1. Returns how many texels that changed.
+// Clamps rows to 0 to 1. Returns how many texels this changed.
 template <std::size_t kSize, std::size_t... kRow>
 inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
                         ClampedBlock<sizeof...(kRow), kSize>& block, std::index_sequence<kRow...>) noexcept {
@@ -165,9 +165,9 @@ inline std::size_t hold(const std::array<const float*, sizeof...(kRow)>& in,
   return count;
 }
 
-// Rows of any length by `convert`, which takes blocks of kSize texels and returns how many were outside. What
-// is left at the end is a block too, filled up with black, so that every texel is computed by the same
-// instructions.
+// Converts rows of any length by `convert`, which converts a block of kSize texels and returns how many were
+// outside. The rest at the end is filled up to a block with black, so that the same instructions compute every
+// texel.
 template <std::size_t kSize, std::size_t kIn, std::size_t kOut, class Convert>
 inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn> in,
                                 std::array<float*, kOut> out, const Convert& convert) noexcept {
@@ -192,7 +192,7 @@ inline std::size_t convert_rows(std::size_t count, std::array<const float*, kIn>
   return outside;
 }
 
-// Width is the last row of both ends.
+// Converts the width, which is the last row of both ends.
 template <std::size_t kRows, std::size_t kSize>
 inline void write_width(const Conventions& use, const ClampedBlock<kRows, kSize>& block, float* out) noexcept {
   for_each_texel<kSize>([&, out](std::size_t i) { out[i] = converted_width(use, block.row[kRows - 1][i]); });
@@ -205,9 +205,9 @@ inline float activated(float x) noexcept {
   return float_from_bits(static_cast<std::uint32_t>(order & ~(order >> 31)));
 }
 
-// Units are rows of a table: bias, then one weight an input. Below, `first` is the first input of those in `in`.
+// A unit is a row of a table: its bias, then one weight for each input. Below, `first` is the input of the first row of `in`.
 
-// Bias and the first products of one unit.
+// Computes the bias plus the first products of one unit.
 template <std::size_t Inputs>
 inline void begin_sum(std::size_t count, const float* unit, const float (*in)[kBlock], float* sum) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -217,7 +217,7 @@ inline void begin_sum(std::size_t count, const float* unit, const float (*in)[kB
   }
 }
 
-// Some products more of some units: few enough that sums and inputs stay in registers.
+// Adds a few products of a few units, so few that sums and inputs stay in registers.
 template <std::size_t Inputs, std::size_t Units, std::size_t Width>
 inline void add_some_products(std::size_t count, const float (*units)[Width], std::size_t first, const float (*in)[kBlock],
                               float (*sums)[kBlock]) noexcept {
@@ -239,7 +239,7 @@ inline void add_products(std::size_t count, const float (*units)[Width], std::si
     add_some_products<Inputs, kRest>(count, units + (Units - kRest), first, in, sums + (Units - kRest));
 }
 
-// One layer.
+// Computes the sums of one layer.
 template <std::size_t Inputs, std::size_t Units>
 inline void layer(std::size_t count, const float (*units)[Inputs + 1], const float (*in)[kBlock],
                   float (*out)[kBlock]) noexcept {
@@ -257,8 +257,8 @@ inline void activate(std::size_t count, float (*rows)[kBlock]) noexcept {
     for (std::size_t i = 0; i < count; ++i) rows[j][i] = activated(rows[j][i]);
 }
 
-// Some units of a hidden layer, handed on to the sums of the next before the others are computed: however wide the
-// layer is, its rows stay in the first-level cache.
+// Computes a few units of a hidden layer, and adds them to the sums of the next layer before the other units are computed.
+// So the rows stay in the first-level cache, even if the layer is wide.
 template <std::size_t Inputs, std::size_t Units, std::size_t Next, std::size_t Width>
 inline void hand_on(std::size_t count, const float (*units)[Inputs + 1], const float (*next)[Width], std::size_t first,
                     const float (*in)[kBlock], float (*sums)[kBlock]) noexcept {
@@ -268,7 +268,7 @@ inline void hand_on(std::size_t count, const float (*units)[Inputs + 1], const f
   add_products<Units, Next>(count, next, first, rows, sums);
 }
 
-// A hidden layer and the one after it.
+// Computes a hidden layer, and the sums of the following layer.
 template <std::size_t Inputs, std::size_t Hidden, std::size_t Next>
 inline void two_layers(std::size_t count, const float (&units)[Hidden][Inputs + 1], const float (&next)[Next][Hidden + 1],
                        const float (*in)[kBlock], float (*sums)[kBlock]) noexcept {
@@ -590,7 +590,7 @@ inline constexpr float k_material_network_1[4][301] = {
     {0.4959738f, -0.001699799f, -0.055569712f, 0.009006363f, -0.032294028f, 0.004765347f, 0.022369647f, 0.0068131573f, 0.023557568f, 0.024200127f, 0.016588608f, 0.043476608f, -0.06963096f, -0.014903834f, -0.018981246f, -0.041922882f, -0.010483676f, 0.06992072f, 0.07218241f, 0.046623975f, -0.00071898056f, -0.0108396495f, 0.026704311f, -0.026134696f, -0.0059604673f, 0.11511886f, -0.030774849f, -0.010205162f, 0.009436393f, -0.038839154f, 0.025998672f, 0.02056606f, 0.055045336f, -0.0130796395f, -0.098442696f, 0.050637882f, 0.009617955f, 0.020429509f, 0.04571769f, 0.03055956f, -0.021067418f, 0.05593272f, 0.019285126f, 0.009654276f, 0.017690795f, 0.014511729f, 0.0030030902f, -0.025739476f, 0.022744482f, 0.0058806404f, -0.06726974f, 0.042326067f, 0.04595896f, -0.019363476f, -0.006254124f, -0.0077920835f, -0.06135632f, -0.003890028f, 0.092584744f, 0.11262315f, -0.032406103f, 0.058686666f, -0.026043145f, -0.017742587f, -0.03773147f, -0.040285613f, -0.021084648f, -0.024742132f, -0.06090352f, -0.01587889f, 0.023848964f, -0.011580987f, 0.036757432f, 1.0712794e-05f, -0.013230616f, -0.025839915f, 0.010837346f, 0.024955038f, -0.0032103062f, 0.03176343f, -0.019201137f, -0.036122467f, -0.024213254f, 0.013455608f, -0.026635336f, -0.010812364f, 0.115921594f, 0.11545783f, 0.003325723f, 0.04181397f, 0.028895732f, -0.04074592f, 0.0029119973f, -0.043598164f, -0.0024473919f, 0.026867561f, -0.013061885f, -0.013115694f, -0.03761952f, -0.0004571506f, -0.06374468f, 0.02861002f, -0.0009749715f, -0.15818118f, 0.014324275f, -0.02889041f, -0.0060493913f, 0.027670363f, 0.0024046344f, 0.07257668f, 0.043574486f, 0.03259709f, -0.010618078f, -0.039296888f, -0.0007540832f, 0.67749226f, 0.0012488698f, -0.033020187f, -0.0016895995f, -0.03401424f, 0.033736363f, -0.017213805f, -0.040936578f, -0.016946241f, 0.023680067f, -0.04629492f, 0.05797451f, -0.0008356899f, 0.016974067f, 0.014306443f, -0.018215014f, -0.08536731f, 0.0060605016f, 0.03744136f, -0.015275104f, 0.0065987273f, -0.020420667f, -0.07324361f, -0.017884068f, -0.032171372f, -0.0033156755f, 0.02014406f, -0.053282797f, 0.06414205f, 0.017986443f, -0.0125460895f, 0.0011706684f, 0.02887985f, -0.026988422f, -0.016154487f, 0.010685119f, 0.00985108f, 0.029535025f, -0.045700695f, 0.018926602f, 0.005406634f, 0.0026515394f, -0.026864592f, -0.09740878f, 0.009849713f, -0.0028565926f, 0.02843579f, 0.0636485f, -0.039516285f, 0.029706199f, -0.007469007f, 0.027995097f, 0.005120617f, 0.03385359f, 0.15658455f, -0.017186075f, -0.023583254f, -0.006864148f, 0.022896184f, -0.003360208f, 0.027461259f, 0.021148799f, 0.016632125f, -0.120518014f, -0.0059738043f, -0.012578043f, 0.009073579f, 0.014397731f, -0.064256385f, -0.019475462f, -0.05616683f, -0.012515037f, 0.0069412994f, -0.037543446f, 0.007974907f, 0.017229574f, 0.025331587f, -0.045916915f, 0.0011670975f, 0.022736821f, -0.04064775f, 0.011617955f, 0.01280152f, 0.0025931164f, -0.02148129f, 0.02253031f, -0.04571175f, -0.016247129f, 0.033484537f, 0.08314271f, -0.0074371477f, -0.02965625f, 0.011693432f, -0.03834237f, -0.044223025f, -0.032554172f, 0.14016554f, 0.018965757f, -0.0034206053f, 0.10355419f, 0.014384504f, -0.022364108f, 0.0253628f, -0.024789147f, 0.08367185f, -0.061465506f, -0.041603707f, 0.05220937f, -0.026781194f, -0.033449084f, -0.030801896f, -0.03458095f, -0.023188282f, 0.052312132f, 0.01604941f, -0.024354206f, 0.005714017f, 0.007164464f, 0.032644186f, -0.0077162227f, -0.047382005f, -0.020440953f, 0.06049507f, -0.079440966f, -0.013345346f, -0.0060066176f, -0.0024763164f, -0.04792254f, 0.010140698f, -0.060844645f, 0.0017103684f, 0.02333038f, 0.019874636f, -0.02835568f, -0.00927742f, 0.0058428035f, 0.0031007023f, 0.005242697f, 0.06592302f, 0.015664216f, 0.03487735f, 0.010074578f, -0.019499712f, -0.027250031f, -0.0076573226f, 0.023733456f, 0.013895949f, 0.009405536f, 0.009359807f, -0.022896687f, 0.050126527f, 0.039394137f, -0.0011144957f, 0.03360467f, 0.05218226f, -0.008318698f, 0.024320973f, 0.015638985f, 0.008580562f, 0.066543445f, -0.016627356f, 0.029286625f, 0.020404048f, -0.04327897f, -0.045007303f, 0.007532139f, 0.017897213f, 0.006270435f, -0.016024511f, -0.029614907f, 0.041564286f, 0.006448522f, 0.0066355946f, -0.0049748365f, -0.030286957f, -0.054483067f, -0.022376124f, -0.030321378f, 0.008221272f, -0.001088377f, 0.0052440455f, -0.4274973f, 0.024997443f, -0.04445431f, -0.062485114f, 0.03262907f},
 };
 
-// Inputs are normalised in the first layer, outputs scaled back in the last.
+// The weights of the first layer normalise the inputs, and those of the last layer scale the outputs back.
 inline void material_network(std::size_t count, const float* const* in, float* const* out) noexcept {
   float x0[6][kBlock];
   for (std::size_t k = 0; k < 6; ++k)
@@ -601,8 +601,8 @@ inline void material_network(std::size_t count, const float* const* in, float* c
     for (std::size_t i = 0; i < count; ++i) out[m][i] = x2[m][i];
 }
 
-// Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width: what the
-// network gives of the first six, clamped to 0 to 1.
+// Converts diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width. The
+// network computes the first four results from the first six rows, and they are clamped to 0 to 1.
 inline std::size_t by_network(const Conventions& use, const std::array<const float*, 7>& in,
                               const std::array<float*, 5>& out) noexcept {
   ClampedBlock<7, kBlock> block;
@@ -633,10 +633,10 @@ inline std::size_t evaluate_rows(std::size_t count, const std::array<const float
   });
 }
 
-// Texels that become rows together.
+// This many texels are copied to rows at a time.
 inline constexpr std::size_t kTexels = 128;
 
-// Texels anywhere by `convert`, which takes rows and returns how many were outside.
+// Converts texels with any strides by `convert`, which needs rows and returns how many texels were outside.
 template <std::size_t kIn, std::size_t kOut, class T, class Convert>
 inline std::size_t convert_texels(std::size_t count, const std::array<const T*, kIn>& in,
                                   const std::array<std::size_t, kIn>& in_strides, const std::array<T*, kOut>& out,
@@ -670,7 +670,7 @@ inline std::size_t convert_texels(std::size_t count, const std::array<const T*, 
 #pragma clang diagnostic pop
 #endif
 
-// A type without values: templates take it as an argument. Headers of one kind have the same members.
+// This type has no values, and can be the argument of a template. Headers of one kind have the same members.
 struct specular_to_metallic_network_sztrajman_2019 {
   static constexpr const char* kId = "specular_to_metallic_network_sztrajman_2019";
   static constexpr const char* kSourceModel = "specular";
@@ -695,8 +695,8 @@ struct specular_to_metallic_network_sztrajman_2019 {
     float width;  // square root of the microfacet width, 0 to 1
   };
 
-  // Texels in memory: rows of their own, or elements of buffers, with the elements from one texel to the next. T is float, or any
-  // type that static_cast converts to float and back.
+  // These point to texels in memory: to separate rows, or to elements of buffers. A stride is the number of elements from one
+  // texel to the next. T is float, or any type that static_cast converts to float and back.
   template <class T = float>
   struct InputTexels {
     std::array<T*, 3> diffuse;
@@ -712,8 +712,8 @@ struct specular_to_metallic_network_sztrajman_2019 {
     std::size_t base_color_stride = 1, metallic_stride = 1, width_stride = 1;
   };
 
-  // Converts `count` texels. Output may be exactly elements of input. Texels do not see each other: any split gives the same
-  // bits. Values beyond 0 to 1 are clamped there; NaN makes the outputs that depend on it NaN. Returns the number of texels
+  // Converts `count` texels. Output may be exactly elements of input. Texels do not depend on each other, so calls for parts give
+  // the same bits. Values are clamped to 0 to 1, and NaN makes the outputs that depend on it NaN. Returns the number of texels
   // that had such values.
   template <class In = const float, class Out = std::remove_const_t<In>>
   static std::size_t evaluate_batch(std::size_t count, const InputTexels<In>& in,
@@ -723,7 +723,7 @@ struct specular_to_metallic_network_sztrajman_2019 {
         {out.base_color[0], out.base_color[1], out.base_color[2], out.metallic, out.width}, {out.base_color_stride, out.base_color_stride, out.base_color_stride, out.metallic_stride, out.width_stride}, specular_to_metallic_network_sztrajman_2019_detail::evaluate_rows);
   }
 
-  // One texel: rows of one.
+  // Converts one texel.
   static Output evaluate(const Input& in) noexcept {
     Output out{};
     specular_to_metallic_network_sztrajman_2019_detail::evaluate_rows(1, {&in.diffuse[0], &in.diffuse[1], &in.diffuse[2], &in.specular[0], &in.specular[1], &in.specular[2], &in.width},
@@ -731,7 +731,7 @@ struct specular_to_metallic_network_sztrajman_2019 {
     return out;
   }
 
-  // Whether all values of the texel are in 0 to 1.
+  // Returns true if all values of the texel are from 0 to 1.
   static bool in_domain(const Input& in) noexcept {
     std::uint32_t outside = 0;
     for (const float value : {in.diffuse[0], in.diffuse[1], in.diffuse[2], in.specular[0], in.specular[1], in.specular[2], in.width})
@@ -739,7 +739,7 @@ struct specular_to_metallic_network_sztrajman_2019 {
     return outside >> 31 == 0;
   }
 
-  // Whether this compilation gives the values that remapc computes, to 1e-4f: single texels and rows.
+  // Returns true if this compilation gives the values that remapc computes, within 1e-4f.
   static bool self_test() noexcept {
     constexpr std::size_t kCount = 8, kInputRows = 7, kOutputRows = 5;
     constexpr float kIn[kInputRows][kCount] = {

@@ -1,5 +1,5 @@
-// Makes the page: build.mjs OUT MODULES PROGRAM. OUT becomes a folder to serve, with texremap.html beside it in one file;
-// MODULES is the folder node_modules, PROGRAM that of page.mjs and page.wasm.
+// build.mjs OUT MODULES PROGRAM makes the page: the folder OUT to serve, and beside it texremap.html, the same page in one
+// file. MODULES is the folder node_modules. PROGRAM is the folder with page.mjs and page.wasm.
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';

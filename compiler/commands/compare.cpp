@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/read_file.hpp"
+#include "core/report_text.hpp"
 #include "fit/baselines.hpp"
 #include "report/fit_plot.hpp"
 #include "table/split.hpp"
@@ -80,8 +81,7 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
   candidate.specular = error_figures(residuals.specular);
   if (own_table) candidate.verdict = "fitted from this table, training rows included";
   if (outside != 0)
-    candidate.verdict +=
-        (own_table ? "; " : "") + std::to_string(outside) + " rows outside its domain skipped";
+    candidate.verdict += (own_table ? "; " : "") + counted(outside, "row") + " outside its domain skipped";
   return {candidate,
           {{"kind", "fit"},
            {"file", named.file},

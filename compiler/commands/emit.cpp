@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <string>
+#include <string_view>
 
 #include "build/fit_folder.hpp"
 #include "command_line/command.hpp"
@@ -18,6 +20,8 @@
 
 namespace remap {
 namespace {
+
+constexpr std::string_view kDeleteIt = " (delete it)";
 
 struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
@@ -90,7 +94,9 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
     const bool known = std::ranges::any_of(files, [&](const EmittedFile& file) {
       return std::filesystem::path(file.name).filename() == entry.path().filename();
     });
-    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
+    if (!known)
+      found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string() +
+                      std::string(kDeleteIt));
   }
   return found;
 }
@@ -118,10 +124,17 @@ void run(const EmitCommand& options) {
   }
   const std::vector<std::string> found = differences(options, files);
   for (const std::string& difference : found) std::cout << difference << "\n";
-  if (!found.empty())
-    throw Error(ErrorKind::kInput, options.output.string() + ": " + counted(found.size(), "file") +
-                                       (found.size() == 1 ? " is" : " are") +
-                                       " out of date (run `remapc emit --all`)");
+  if (found.empty()) return;
+  const bool is_one = found.size() == 1;
+  // Another run does not remove headers without a fit.
+  const bool have_no_fits = std::ranges::all_of(
+      found, [](const std::string& difference) { return difference.ends_with(kDeleteIt); });
+  throw Error(ErrorKind::kInput, options.output.string() + ": " + counted(found.size(), "file") +
+                                     (is_one ? " is" : " are") + " out of date (" +
+                                     (!have_no_fits ? "run this command without --check"
+                                      : is_one      ? "delete it"
+                                                    : "delete them") +
+                                     ")");
 }
 
 }  // namespace

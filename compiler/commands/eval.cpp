@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "lower/interpreter.hpp"
 #include "table/split.hpp"
 
@@ -90,9 +91,9 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
     std::cout << "  " << name << ": rms " << error_text(f.rms) << ", 99 % " << error_text(f.p99) << ", max "
               << error_text(f.max) << "\n";
   };
-  std::cout << fit.id << " on " << rows.size() << " rows of " << table.name
+  std::cout << fit.id << " on " << counted(rows.size(), "row") << " of " << table.name
             << (same_table ? " (the table that it was fitted to, training rows included)" : "") << "\n";
-  if (outside != 0) std::cout << "  " << outside << " rows outside its domain skipped\n";
+  if (outside != 0) std::cout << "  " << counted(outside, "row") << " outside its domain skipped\n";
   print("alpha", alpha);
   print(fit.target.specular, specular);
 }

@@ -21,7 +21,7 @@ namespace remap {
 struct MeasurementOptions {
   PairOptions pair;  // set when the command runs; its objective comes from the next members
   std::string objective = "natural";
-  std::optional<std::vector<double>> lights;  // angles; if unset, those of the objective
+  std::optional<std::vector<double>> lights;  // angles; if unset, the angles of the objective
   std::optional<Weighting> weighting;
   double distance = 3.0;
   bool keep_irradiance = false;

@@ -9,6 +9,7 @@
 #include "commands/option_readers.hpp"
 #include "commands/table_input.hpp"
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "measure/provenance.hpp"
 
 namespace remap {
@@ -44,8 +45,8 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
   std::size_t rows = 0;
   for (const TableRow& row : table.rows) rows += row.alpha1 < limit ? 1 : 0;
   if (rows != 0)
-    std::cerr << "remapc: warning: " << rows << " rows have alpha1 below "
-              << number_text(rounded_up(limit, 2))
+    std::cerr << "remapc: warning: " << counted(rows, "row") << (rows == 1 ? " has" : " have")
+              << " alpha1 below " << number_text(rounded_up(limit, 2))
               << ", where the highlight is smaller than a pixel (increase --resolution or --pixel-samples)\n";
 }
 

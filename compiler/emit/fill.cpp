@@ -160,7 +160,7 @@ std::string commented(std::string_view line) {
   return safe + (safe.ends_with('\\') || safe.ends_with("?\?/") ? "." : "");
 }
 
-// Only this function writes text from fits into a header. Names have rules of their own (is_valid_id() and
+// Only this function writes text from fits into a header. Names have separate rules (is_valid_id() and
 // others).
 std::string comment_lines(std::string_view text) {
   std::string lines;

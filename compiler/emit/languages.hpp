@@ -1,5 +1,5 @@
-// This file writes converters in other languages, as a function for one texel. The formula is that of the
-// header.
+// This file writes converters in other languages, as a function for one texel. It has the same formula as
+// the header.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ std::string form_code(const ConverterData& converter);
 
 struct MaterialCode {
   std::string formula;
-  std::string constants;  // definitions apart from those of source and target
+  std::string constants;  // definitions, except for source and target
   std::string functions;  // functions of namespace detail
   std::string block;      // number of texels that are converted together
   std::string call;       // call that converts a block, from rows `from` to rows `to`

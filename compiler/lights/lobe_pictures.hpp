@@ -49,7 +49,7 @@ class LobePictures {
   const std::vector<double>& alphas() const { return alphas_; }
   // Adds the lobe to a picture, which is linear RGB of pixels(). Alpha is clamped to alphas(), and
   // interpolated between them by its logarithm. With `is_constant`, the reflectance of the lobe is specular
-  // in every direction. Otherwise, it is that of the model.
+  // in every direction. Otherwise, it is the reflectance of the model.
   void add(std::size_t light, double alpha, const Rgb& specular, bool is_constant,
            std::vector<float>& radiance) const;
 

@@ -12,8 +12,8 @@ inline constexpr double kLoweringTolerance = 1e-3;
 
 // Returns the form with the fewest terms that meets the tolerance, or that comes closest. A compact fit stays
 // unchanged. The bounds are proven for |form in float arithmetic - mapping| over the whole domain, below the
-// limits. The result has no other members yet. Throws kNumeric if no form is proven within ten times the
-// tolerance.
+// limits. Sets only the form and the bounds of the result. Throws kNumeric if no form is proven within ten
+// times the tolerance.
 ConverterData lower(const Fit& fit, double tolerance = kLoweringTolerance);
 
 // Lowers the fit and sets fit->converter. Takes up to a second. If it throws like lower(), the fit is

@@ -232,7 +232,7 @@ template <int N>
 struct GaussianSeries {
   std::array<double, N + 1> coefficients{};
   double total = 0.0;     // sum of magnitudes, and the remainder
-  double rounding = 0.0;  // distance of all coefficients from exact real arithmetic
+  double rounding = 0.0;  // bound of the sum of the rounding errors of all coefficients
 
   GaussianSeries(double gamma, double distance, double half_width) {
     constexpr double kUnit = Taylor<1, N>::kUnit;

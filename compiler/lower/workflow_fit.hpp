@@ -27,7 +27,7 @@ struct WorkflowFit {
   std::string id;
   WorkflowConversion conversion;
   std::optional<NetworkTraining> training;  // set for a network
-  std::vector<std::string> remarks;         // lines of the card
+  std::vector<std::string> remarks;         // lines of the model card (remapc show)
   std::string tool_version;
   bool operator==(const WorkflowFit&) const = default;
 };

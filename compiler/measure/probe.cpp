@@ -91,7 +91,7 @@ class SpecularProbe {
   }
 
   // Returns true if pictures are black at specular 0, or at index 1. Returns false if the range does not
-  // begin there, because nobody then knows.
+  // begin there, because it is then unknown.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
     return std::all_of(widths_.begin(), widths_.end(),

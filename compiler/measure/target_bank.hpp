@@ -36,7 +36,7 @@ class TargetBank {
   // Returns the pictures of a node (take_family). The first call renders and keeps them. Thread-safe.
   const std::vector<std::vector<float>>& pictures(std::size_t node) const;
 
-  // Renders those of the `nodes` that no other thread has started. Threads that need the same nodes share the
+  // Renders the `nodes` that no other thread has started. Threads that need the same nodes share the
   // work, and do not wait for each other at each node.
   void prepare(std::span<const std::size_t> nodes) const;
 

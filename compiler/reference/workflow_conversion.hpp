@@ -19,7 +19,7 @@
 
 namespace remap {
 
-// A ClosedFormula is a formula without numbers of its own. Metallic workflows cannot express all specular
+// A ClosedFormula is a formula without fitted numbers. Metallic workflows cannot express all specular
 // materials, so the formulas to metallic differ.
 enum class ClosedFormula {
   kEquation2,  // from metallic to specular by equation (2) of the paper; it is exact
@@ -116,8 +116,8 @@ struct MetallicDiagnosis {
   // values).
   float residual = 0.0f;
   // This is how much metallic can vary, as a fraction of [0, 1], while the squared error (with the best base
-  // color) stays within (1/255)^2 of the smallest. Above 0.2, metallic is not reliable. This does not change
-  // the picture.
+  // color) stays within (1/255)^2 of the smallest. Above 0.2, metallic is not reliable, but all
+  // values in this range give almost the same picture.
   float metallic_uncertainty = 0.0f;
   // True if a parameter was outside of [0, 1], or if a base color was outside by more than half a step of 8
   // bits.

@@ -1,6 +1,6 @@
 // This file previews a conversion on several shapes. Under each light, it shows the source, the target with
 // the numbers of the source, and the target with converted numbers. Without a conversion, people copy the
-// numbers. Alphas need not be those of the sweep.
+// numbers. Alphas need not occur in the sweep.
 #pragma once
 
 #include <cstdint>

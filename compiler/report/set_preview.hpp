@@ -26,7 +26,7 @@ struct SetPreviewOptions {
   int directions = 160;                    // samples of the light for each pixel, in the built-in renderer
   int external_directions = 128;           // in workers
   std::size_t most_materials = 4;
-  std::function<void(double share)> progress;  // receives the finished fraction, 0 to 1; any thread
+  std::function<void(double share)> progress;  // called from any thread with the finished fraction, 0 to 1
 };
 
 // A SetFigure compares the pictures of one material with the source's picture.

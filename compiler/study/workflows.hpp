@@ -67,7 +67,7 @@ struct WorkflowComparison {
 
 inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
-// Renders every material and the result of each method. The smallest error is that of the best result, either
+// Renders every material and the result of each method. The smallest error comes from the best result: either
 // of a search under these environments, or of a method with the same F0. So no method has a smaller error.
 // Throws kUsage for empty lists, numbers out of range, and an environment with the name of another
 // environment or of the headlight. Also throws kInterrupted.

@@ -152,7 +152,7 @@ struct Surroundings {
   double beside = 0.0;  // texels with another stroke within six texels
   double at_rim = 0.0;  // texels with a larger stroke within six texels
   double close = 0.0;   // texels with a larger stroke within two texels
-  // For each stroke, the number of texels whose largest stroke within six texels it is.
+  // This counts, for each stroke, the texels for which it is the largest stroke within six texels.
   std::array<std::size_t, kNoCluster + 1> rims = {};
 };
 

@@ -20,8 +20,8 @@ constexpr std::chrono::milliseconds kPauseGlance{100};
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// If a number is 0, replaces it by a suitable number of processes for this machine, or of threads in each
-// process.
+// Replaces 0 processes by one for each core, and sets the number of threads so that all processes together
+// use all cores.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.threads = std::max(1u, core_count() / settings.processes);

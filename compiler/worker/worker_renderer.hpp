@@ -40,8 +40,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user about pictures of other versions in the cache, and about damaged pictures.
-  // If there were more lost processes than the one in the warning, reports them, too.
+  // Returns remarks for the user about lost processes, damaged pictures, and pictures of other versions in
+  // the cache. The first loss and the first damage are not repeated, because a warning has reported them.
   std::vector<std::string> remarks() const;
 
  private:

@@ -995,13 +995,14 @@ inline GltfPbr gltf_pbr_to_gltf_pbr_core(const GltfPbr& source) {
   return target;
 }
 
-// A map of the source: texel i begins at data[i * stride]. A stride of 0 repeats one value; without data, the input has its default.
+// A MapRow is a map of the source. Texel i begins at data[i * stride]. A stride of 0 repeats one value. If data is null, the input
+// has its default.
 struct MapRow {
   const float* data = nullptr;
   std::size_t stride = 0;
 };
 
-// Receives an input of the target. Without data, the input is not written.
+// A ResultRow receives an input of the target. If data is null, the input is not written.
 struct ResultRow {
   float* data = nullptr;
   std::size_t stride = 0;

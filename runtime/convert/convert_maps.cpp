@@ -53,7 +53,7 @@ class SegmentRows {
     rows.count = count;
     for (std::size_t c = 0; c < count; ++c) rows.row[c] = own[c].data();
   }
-  // Uses a row of a map, so the channel needs no row of its own.
+  // Uses a row of a map, so the channel needs no separate row.
   void refer(Parameter parameter, std::size_t channel, Float* row) { rows_[parameter].row[channel] = row; }
 
   std::size_t count(Parameter parameter) const { return rows_[parameter].count; }

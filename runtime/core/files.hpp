@@ -16,9 +16,9 @@ namespace remap {
 
 // Returns a new hidden name for an unfinished file in the folder of `path`:
 // `.STEM.unfinished-MARK-LETTERS.EXTENSION`. MARK is the mark of this process (owner_tag.hpp). The extension
-// stays, because it tells image writers the format. The stem is shortened if the name would exceed 255 bytes.
-// The first call for a folder also removes files of processes of this machine that have ended. A process that
-// is killed cannot remove its own files.
+// stays, because image writers choose the format by it. The stem is shortened if the name would exceed 255
+// bytes. The first call for a folder also removes files of processes of this machine that have ended. A
+// process that is killed cannot remove its own files.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
 
 // Removes the unfinished files of ended processes from a folder, even if an earlier call has done so.

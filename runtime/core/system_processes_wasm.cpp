@@ -29,7 +29,7 @@ std::string machine_name() {
   return text;
 }
 
-// Returns 4 GB, because the memory of a page ends there, whatever the machine has.
+// Returns 4 GB, because WebAssembly with 32-bit addresses cannot use more, whatever the machine has.
 std::uint64_t memory_size() { return std::uint64_t{4} << 30; }
 
 std::filesystem::path program_file() { return {}; }

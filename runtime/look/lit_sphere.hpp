@@ -50,7 +50,7 @@ class SpherePictures {
   std::vector<float> radiance(std::size_t material, std::size_t environment) const;
   std::vector<float> half_radiance(std::size_t material, std::size_t environment, std::size_t half) const;
 
-  // Returns all channels of a pixel, which is an index into pixels().
+  // Returns all channels of a pixel. `pixel` is an index into pixels(). `half` is 0 or 1.
   float* values(std::size_t material, std::size_t half, std::size_t pixel);
 
  private:

@@ -32,8 +32,8 @@ struct ScaledMaps {
                  int down, int row, std::vector<float>& means) const;
 };
 
-// Reads each map of the set once. `encoding` is of a roughness map without its own. Throws kInput if a map
-// cannot be read.
+// Reads each map of the set once. `encoding` is used if the set does not state the encoding of its roughness.
+// Throws kInput if a map cannot be read.
 ScaledMaps scaled_maps(TextureSet& set, RoughnessEncoding encoding, int side);
 
 // Scales sources down, each of which is constants or a map of `width` * `height` texels.

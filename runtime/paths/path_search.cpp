@@ -83,7 +83,8 @@ class Search {
     return nodes;
   }
 
-  // Returns true if the current leg has left another node that also has an edge to the end of `edge`.
+  // Returns true if an earlier node since the last waypoint has a direct edge to the end of `edge`, so that a
+  // path with this edge would be a detour.
   bool goes_round(const Beginning& beginning, const DirectedEdge& edge) const {
     if (graph_.detours) return false;
     const std::size_t leg_start = waypoints_[beginning.next - 1];

@@ -21,11 +21,12 @@
 // Members of a rule:
 // - `words` end the name of a map, before resolution and tile. Case is ignored. A separator in a word
 //   (`_`, `-`, `.`, space) matches any separator or none: `base_color` matches baseColor, Base-Color and
-//   basecolor, whereas `baseColor` does not match base_color. The longest matching word wins; of two habits
-//   with the same word, that of the file wins.
-// - `role` says what the whole map holds, `channels` what R, G, B, A or RGB hold. A rule has one of the two.
+//   basecolor, but `baseColor` does not match base_color. The longest matching word wins. If a built-in
+//   habit has the same word as the file, the file wins.
+// - `role` is what the whole map holds, `channels` is what R, G, B, A or RGB hold. A rule has either `role`
+//   or `channels`.
 //   The roles are listed below; inputs of surface models, such as coat_roughness, are roles as well.
-// - `ordinary` (default false): the words also occur in names of objects (robot_arm). They count only if
+// - `ordinary` (default false): the words also occur in names of objects (robot_arm). They are used only if
 //   another map has the same stem, if a resolution is next to them, or if they are written in capitals here
 //   and in the name.
 //

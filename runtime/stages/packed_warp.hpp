@@ -1,4 +1,4 @@
-// This file holds the memory layout of a compiled warp for warp/code. Generated headers contain the same
+// This file holds the memory layout of a compiled warp for stages/code. Generated headers contain the same
 // numbers, so that both give the same bits.
 #pragma once
 

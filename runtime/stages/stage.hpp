@@ -88,7 +88,7 @@ class Stage {
   Stage() = default;
 };
 
-// Returns a stage without a domain and without a test of its own, which calls `run`. Many threads may call
+// Returns a stage that calls `run`. It has neither a domain nor a test. Many threads may call
 // it.
 std::shared_ptr<const Stage> make_stage(std::function<void(Block& block)> run);
 

@@ -141,7 +141,7 @@ ColorStorage color_storage(const TextureSet& set, Parameter parameter, const Tar
   return storage;
 }
 
-// Returns a new map for a parameter that has no file of its own in the set.
+// Returns a new map for a parameter that has no separate file in the set.
 PlannedFile new_map(const std::string& name, const std::vector<std::string>& channel_names,
                     std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};

@@ -43,8 +43,8 @@ struct TargetPlan {
 // and exponents are larger.
 void require_target_scale(const TextureSet& set, const TargetPlan& plan);
 
-// A ResultNames holds the text before and after a parameter in the name of a result that has no input of its
-// own. For `wood_specular.1001`, these are `wood` and `.1001`.
+// A ResultNames holds the text before and after a parameter in the name of a result that has no input of the
+// same name. For `wood_specular.1001`, these are `wood` and `.1001`.
 struct ResultNames {
   std::string set;
   std::string after;

@@ -257,7 +257,8 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
 void Pass::add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
                       MapConversion& maps) const {
   TargetParameter& parameter = maps.targets[channel.parameter];
-  // If channels are equal copies, append this one. Otherwise, each channel of a color has a fixed place.
+  // If all result channels of the parameter have the same value, they are kept in any order. The channels of
+  // other colors have fixed places.
   const auto source = set_.parameters.find(channel.parameter);
   const bool is_copy = !is_color(channel.parameter) ||
                        (source != set_.parameters.end() && source->second.channel_count() == 1 &&

@@ -61,7 +61,7 @@ def bash(table):
     cases = ["    " + " | \\\n    ".join(names) + f") {work} ;;" for work, names in patterns.items()]
     return header("bash", table) + f"""_{program}() {{
   local word=$2 before=$3 words=
-  # bash takes the sign in --option=value for a word of its own
+  # bash treats the sign in --option=value as a separate word
   if [[ $word == = ]]; then word=; elif [[ $before == = ]]; then before=${{COMP_WORDS[COMP_CWORD - 2]}}; fi
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then before=; fi

@@ -30,7 +30,7 @@ std::string manifest() {
 }
 
 // Returns the same manifest, but its models have an index of refraction, so fits are not compared by
-// pictures. It has no inverse, whose 480 rows take longer to fit than all other rows.
+// pictures. Leaves out the inverse, because its 480 rows take longer to fit than all other rows.
 nlohmann::json quick_manifest(int resolution = 48) {
   auto items = nlohmann::json::parse(manifest());
   items["published"][0]["id"] = "a_b_to_mitsuba_as_ior";

@@ -1,5 +1,5 @@
-// Reports as HTML: what they show equals the files, they hold everything that they need, and names of
-// strangers stay text.
+// This file tests reports as HTML. They must show what the files hold, contain everything that they need, and
+// show names from files only as text.
 #include <algorithm>
 #include <cmath>
 

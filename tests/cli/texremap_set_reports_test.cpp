@@ -229,7 +229,7 @@ TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[
   CHECK_THAT(brief, !Contains("undetermined") && Contains("of the same kinds (--verbose lists them)"));
   const std::string verbose = require_success(sets.texremap(words + "--verbose")).errors;
   CHECK(lines(verbose) >= 4 * kSets);
-  CHECK_THAT(verbose, Contains("metallic undetermined, no visible effect"));
+  CHECK_THAT(verbose, Contains("metallic is undetermined, without visible effect"));
   // Metal-rough cannot express a blue metal with red diffuse.
   sets.plain("in/rock0x_specular.png", {20, 20, 230}, 8);
   sets.plain("in/rock0x_diffuse.png", {230, 20, 20}, 8);

@@ -29,7 +29,7 @@ function commandOf(files, { from, to, layout, isEngine, more }) {
   const words = ['convert', IN, '--recursive'];
   if (files.some((file) => isAsset(file.path))) words.push('--assets');
   if (files.some((file) => /\.obj$/i.test(file.path))) words.push('--format', 'glb');
-  // Maps that cannot be written here, or only with a loss.
+  // The page cannot write these formats, or only with a loss.
   else if (!isEngine && files.some((file) => /\.(jpe?g|webp|tiff?)$/i.test(file.path)) && !words.includes('--assets'))
     words.push('--format', 'png');
   if (from) words.push('--from', from);
@@ -71,7 +71,7 @@ export class Conversion {
     return { status, report: [...err, ...out], command: `texremap ${this.#words.map(quoted).join(' ')}`, files: this.#results() };
   }
 
-  // Without the journal, which resumes a conversion where files stay.
+  // Leaves out the journal, which is only needed to resume a conversion.
   #results() {
     return this.#program.read(`/${OUT}`).filter(({ path }) => !baseName(path).startsWith('.'));
   }

@@ -1,4 +1,4 @@
-// A headless Chromium with the page, and what tests do with it.
+// This file runs the page in a headless Chromium, and does there what the tests need.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -64,7 +64,7 @@ export class Visit {
     return visit;
   }
 
-  // A drop as of a file manager.
+  // Drops files on the page, as a file manager does.
   async drop(...files) {
     const box = await (await this.page.$('#drop')).boundingBox();
     const data = { items: [], files, dragOperationsMask: 1 };

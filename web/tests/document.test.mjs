@@ -1,5 +1,5 @@
-// remapMaterials() of the package for node, bundled for a browser and run there on a document of glTF-Transform: images
-// have the values that node gives.
+// This file tests remapMaterials() of the package for node, bundled for a browser. On a document of glTF-Transform, it must
+// give images with the same values as in node.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync, mkdtempSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -14,7 +14,7 @@ const npm = process.env.TEXREMAP_PACKAGE ?? join(repository, 'build/wasm/npm');
 const needed = ['program_memory.mjs', 'node_modules/@gltf-transform/extensions'].find((name) => !existsSync(join(npm, name)));
 const reason = skip || (needed ? `${needed} is not in ${npm} (scripts/package npm, then packages/npm/tests/install.bash)` : false);
 
-// Run in the page and in node: the images of a document of one material, converted.
+// This program runs in the page and in node. It converts a document of one material and returns the images.
 const PROGRAM = `
 import { Document } from '@gltf-transform/core';
 import { KHRMaterialsPBRSpecularGlossiness } from '@gltf-transform/extensions';
@@ -43,11 +43,11 @@ test('a document in a browser', { skip: reason }, async () => {
     stdin: { contents: `${PROGRAM.replace('PACKAGE', npm)} window.converted = converted;`, resolveDir: npm },
     bundle: true,
     format: 'esm',
-    external: ['node:*'],  // which glTF-Transform and the package load in node alone
+    external: ['node:*'],  // glTF-Transform and the package load these only in node
     outfile: join(folder, 'page.js'),
     logLevel: 'error',
   });
-  // Node takes the files of the package themselves.
+  // Node loads the files of the package without a bundle.
   const program = join(npm, `document_${process.pid}.mjs`);
   writeFileSync(program, PROGRAM.replace('PACKAGE', '.'));
   const files = { '/page.js': join(folder, 'page.js'), '/program.wasm': join(npm, 'program.wasm') };

@@ -1,5 +1,6 @@
-// The page in a headless Chromium: files go in as a person gives them, and what is downloaded is compared with what the program
-// of the C++ build writes: images by every value, all else by bytes. What is missing is skipped, with its reason.
+// This file tests the page in a headless Chromium. Files are given as a person gives them, and downloads are compared with
+// what the program of the C++ build writes: images by every value, other files by bytes. If something that a test needs is
+// missing, the test is skipped with the reason.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -43,10 +44,10 @@ async function visited(url, work) {
   }
 }
 
-// The files of a download, by name.
+// Returns the files of a download, by name.
 const filesOf = ({ name, bytes }) => (name.endsWith('.zip') ? unzipSync(bytes) : { [name]: bytes });
 
-// { status, err, files }: what the program does by the command that the page shows, for the same files in a folder `in`.
+// Runs the command that the page shows in the program, on the same files in a folder `in`. Returns { status, err, files }.
 async function runProgram(visit, ...names) {
   const work = mkdtempSync(join(folder, 'native-'));
   mkdirSync(join(work, 'in'));
@@ -79,7 +80,7 @@ function openGlb(bytes) {
   const binary = bytes.subarray(28 + length);
   const parts = (document.bufferViews ?? []).map(({ byteOffset = 0, byteLength }) => binary.subarray(byteOffset, byteOffset + byteLength));
   const images = new Set((document.images ?? []).map(({ bufferView }) => bufferView));
-  // Compressed images differ in length, and with them the places of what follows.
+  // Compressed images may differ in length, so the data after them may be at other places.
   for (const part of document.bufferViews ?? []) delete part.byteOffset;
   for (const image of images) delete document.bufferViews[image].byteLength;
   for (const buffer of document.buffers ?? []) delete buffer.byteLength;
@@ -95,7 +96,7 @@ function requireSameGlb(own, other, place) {
   });
 }
 
-// A text with PNG inside, as it is but for their compression.
+// Compares .gltf files exactly, except for the compression of PNG images inside.
 function requireSameGltf(own, other, place) {
   const opened = (bytes) => {
     const images = [];
@@ -118,12 +119,12 @@ function requireSame(own, other) {
   }
 }
 
-// The cases of every package that the page can be asked for; the names of what it cannot are refused before.
+// These are the cases of packages/tests that the page can run. It refuses names that it does not know before a run.
 const CASES = JSON.parse(readFileSync(join(repository, 'packages/tests/cases.json'))).filter(
   ({ name, formats, arguments: words }) =>
     words[0] === 'convert' && formats.join() === 'png' && !['an unknown model', 'nothing there'].includes(name));
 
-// What a person chooses for the words of a case.
+// Returns what a person chooses on the page for the words of a case.
 function choiceOf([, input, ...words]) {
   const choice = { from: '', to: 'gltf', more: [] };
   while (words.length > 0) {
@@ -197,7 +198,7 @@ describe('a folder that is served', { skip }, () => {
       assert.deepEqual(decode(files[name]).data, data.map((value) => 65535 - value));
     }));
 
-  // With chroma of half the size, an orientation to ignore, and grey.
+  // The pictures have chroma of half the size, an orientation that must be ignored, or only grey.
   for (const [format, decoder] of [['jpg', 'libjpeg-turbo'], ['webp', 'libwebp']])
     test(`every value of ${format}, as ${decoder} decodes it`, { skip: skipOiiotool }, () =>
       visited(server.url, async (visit) => {

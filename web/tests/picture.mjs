@@ -1,4 +1,5 @@
-// Draws docs/web.png: the page with worn paint on brass, in the specular workflow before and as metal-rough after.
+// Draws docs/web.png. It shows the page with worn paint on brass: in the specular workflow before the conversion, in the
+// metallic workflow after it.
 // Usage: node web/tests/picture.mjs [dark]
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -11,7 +12,7 @@ const SIZE = 512;
 let state = 21;
 const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32;
 
-// Smooth noise of `cells` squares a side, which repeats.
+// Returns smooth noise that repeats, with `cells` squares a side.
 function noise(cells) {
   const values = Float64Array.from({ length: cells * cells }, random);
   const at = (i, j) => values[(j % cells) * cells + (i % cells)];

@@ -1,4 +1,4 @@
-// The command that the page shows, and names in its archive. Needs neither the page nor a browser.
+// This file tests the command that the page shows, and the names in its archive. It needs neither the page nor a browser.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';

@@ -36,8 +36,8 @@ constexpr std::size_t kTubeSamples = 600;
 enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
 using Point = std::array<int, kAxes>;
 
-// C is at most 100, because libsvm needs minutes for a larger C and a wide kernel. Gamma is 0.1 to 3200, the
-// span at least 0.01, the pole at least 0.01.
+// These bounds are in steps of value_of() and pole_of(). They mean: C 1 to 100, gamma 0.1 to 3200, span 0.01
+// to 1, pole 0 or 0.01 to 1, epsilon 0.0001 to 0.1. libsvm needs minutes for a larger C and a wide kernel.
 constexpr Point kLowest = {0, -4, -8, 0, -16}, kHighest = {8, 14, 0, 5, -4};
 constexpr int kStartCost = 4;
 constexpr int kFirstStep = 2, kLargestRounds = 8;
@@ -150,7 +150,7 @@ class Contest {
   Contest(Samples samples, std::uint64_t seed, unsigned jobs)
       : samples_(std::move(samples)), folds_(folds_of(samples_, seed)), jobs_(jobs) {}
 
-  // Evaluates those of `points` that are new on the first folds, and the promising ones on the other folds.
+  // Evaluates new points on the first folds, and then the promising points on the other folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Trial*> entered;
     for (const Point& point : points) {

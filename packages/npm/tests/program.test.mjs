@@ -34,7 +34,7 @@ test('files of other formats are refused by name', () => {
 test('without sharp, a JPEG is refused with what to type', () => {
   for (const [place, words] of [['node_modules', 'npm install'], ['lib/node_modules', 'npm install --global']]) {
     const copy = join(folder, 'without', place, 'texremap');
-    // Without the program that gltf_transform.test.mjs writes and removes meanwhile.
+    // Leaves out the program that gltf_transform.test.mjs writes and removes meanwhile.
     cpSync(packageFolder, copy, { recursive: true, filter: (path) => !/node_modules.(sharp|@img)$|example_\d+\.mjs$/.test(path) });
     writeFileSync(join(folder, 'map.jpg'), Buffer.from([0xff, 0xd8, 0xff, 0xe0]));
     const refused = spawnSync(process.execPath, [join(copy, 'cli.js'), 'convert', '--from', 'mitsuba/ward', '--to', 'mitsuba/ggx', '--roughness', 'map.jpg',

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# try_package.bash TGZ: installs the package into an empty folder, with no files of npm from before, converts a set and an array
-# with it, and says how many bytes and seconds that takes.
+# try_package.bash TGZ: installs the package into an empty folder, without a cache of npm, converts a set and an array with it,
+# and prints how many bytes and seconds this takes.
 set -euo pipefail
 tgz=$(realpath "$1")
 tests=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../tests")

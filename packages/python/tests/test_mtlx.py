@@ -223,7 +223,7 @@ def test_textures_stay_where_gltf_can_say_it(tmp_path, maps):
     assert sorted(os.listdir(tmp_path)) == ["color.png", "grey.png", "in.mtlx", "normal.png", "orm.png", "out.gltf"]
     mtlx.convert(source, tmp_path / "out.glb", to="gltf")
     assert (image_of(tmp_path / "out.glb", {"index": 1}, tmp_path) == maps["orm"]).all()
-    # What lies outside of the folder of the result is copied into it.
+    # Textures outside of the folder of the result are copied into it.
     mtlx.convert(source, tmp_path / "sub" / "out.gltf", to="gltf")
     require_valid_gltf(tmp_path / "sub" / "out.gltf")
     assert sorted(os.listdir(tmp_path / "sub" / "out_textures")) == ["color.png", "normal.png", "orm.png"]
@@ -264,7 +264,8 @@ def test_transforms_of_textures_are_those_of_the_specification(tmp_path, maps):
     mtlx.convert(tmp_path / "in.gltf", tmp_path / "out.mtlx", to="openpbr")
     texture = MtlxReader(str(tmp_path / "out.mtlx"), str(tmp_path)).surface(0).sources["base_color"]
     assert texture.wrap == ("clamp", "mirror") and texture.place.primvar == "st1"
-    # KHR_texture_transform: translation * rotation * scale, v downwards; UsdTransform2d: scale, rotate, translate, v upwards.
+    # KHR_texture_transform is translation * rotation * scale, with v downwards. UsdTransform2d scales, rotates and
+    # translates, with v upwards.
     c, s = math.cos(rotation), math.sin(rotation)
     for u, v in np.random.default_rng(1).random((5, 2)):
         x, y = u * scale[0], v * scale[1]
@@ -344,7 +345,7 @@ def test_losses_are_named(tmp_path, maps):
     lost = {words.split(":")[0] for words in report.lost}
     assert lost == {"specular_roughness", "base_diffuse_roughness", "subsurface_radius", "ior"}
     assert any(words.startswith("specular_roughness: comes from NG/fractal.out (fractal3d)") for words in report.lost)
-    # A loss of the second step.
+    # The second step, from OpenPBR to glTF, loses base_diffuse_roughness.
     source = document(tmp_path / "two.mtlx", ("cloth", "standard_surface", {"diffuse_roughness": 0.5, "specular_rotation": 0.2}))
     [report] = mtlx.convert(source, tmp_path / "two.glb", to="gltf")
     assert report.lost == ("base_diffuse_roughness",)

@@ -186,7 +186,7 @@ def test_to_openpbr_adds_a_surface_beside_the_other(scene):
             found = np.ravel(authored.Get()) if authored else np.ravel(default)
             assert np.abs(found - np.ravel(expected[word])).max() < 1e-5, (name, word)
     assert surface(stage, "metal").GetIdAttr().Get() == "UsdPreviewSurface"
-    # Textures are connected as they are, where the result is the texture.
+    # If the result equals a texture, the texture is connected, and no new one is written.
     image = producer(paint_of(stage, "wood"), "base_color")
     assert image.GetIdAttr().Get() == "ND_image_color3" and image.GetInput("file").Get().path == "./diffuse.png"
     assert image.GetInput("file").GetAttr().GetColorSpace() == "srgb_texture"
@@ -208,7 +208,7 @@ def test_textures_are_converted_where_a_scale_does_not_do(scene):
     assert "specular_roughness" in written
     stored = np.asarray(oiio.ImageInput.open(str(scene.parent / written["specular_roughness"])).read_image("uint8"))
     assert np.abs(stored[..., :1] / 255.0 - expected["specular_roughness"]).max() <= 0.5 / 255 + 1e-6
-    # An IOR above 1 is stored as a share of its range, which nodes bring back.
+    # The map stores an IOR as a fraction of its range, and nodes compute the IOR from it.
     stage = Usd.Stage.Open(str(output))
     add = producer(paint_of(stage, "coated"), "specular_ior")
     multiply = producer(add, "in1")

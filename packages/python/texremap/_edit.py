@@ -13,7 +13,7 @@ from ._error import Error
 from ._textures import TILE, Texture, baked, png_of, read, tiles_of, write_file
 
 _PROBES = 16
-_SAME = 1e-5  # values that no picture tells apart
+_SAME = 1e-5  # a smaller difference is not visible in a picture
 # A lobe whose weight is 0 shows nothing of its other inputs.
 _WEIGHTS = {
     "open_pbr_surface": {"fuzz_": "fuzz_weight", "transmission_": "transmission_weight", "subsurface_": "subsurface_weight",

@@ -56,7 +56,7 @@ SLOTS = (
     Slot("KHR_materials_iridescence", "iridescenceThickness", {"iridescence_thickness": ("g", "")}),
     Slot("KHR_materials_anisotropy", "anisotropy", {"anisotropy_strength": ("b", "anisotropyStrength")}),
 )
-# Inputs without a texture: extension, name.
+# These inputs have no texture. Each has its extension, and its name there.
 FACTORS = {
     "ior": ("KHR_materials_ior", "ior"),
     "attenuation_distance": ("KHR_materials_volume", "attenuationDistance"),

@@ -105,7 +105,7 @@ class GltfWriter:
             return {"bufferView": len(self.json["bufferViews"]) - 1, "mimeType": kind, **({"name": name} if name else {})}
         if data is None and not self._is_extracted(path):
             relative = os.path.relpath(os.path.realpath(os.path.dirname(path)), os.path.realpath(self._parent))
-            # Many programs do not read files outside of the folder of a document, so that these are copied.
+            # Many programs do not read files outside of the folder of a document, so such files are copied.
             if relative.split(os.sep)[0] != "..":
                 file = os.path.normpath(os.path.join(relative, os.path.basename(path)))
                 return {"uri": quote(file.replace(os.sep, "/"))}

@@ -18,7 +18,7 @@ except ImportError as failure:
 
 _MOST_BYTES = 64 << 20
 _LINEAR, _SRGB = ("", "none", "lin_rec709", "linear", "raw"), ("srgb_texture", "sRGB")
-# Inputs of normals: the base's, the coat's.
+# These inputs are the normals of the base, then the normals of the coat.
 NORMALS = {"open_pbr_surface": ("geometry_normal", "geometry_coat_normal"), "standard_surface": ("normal", "coat_normal"),
            "gltf_pbr": ("normal", "clearcoat_normal"), "UsdPreviewSurface": ("normal",)}
 _TYPES = {"geometry_thin_walled": "boolean", "thin_walled": "boolean", "alpha_mode": "integer", "useSpecularWorkflow": "integer",

@@ -42,5 +42,5 @@ def mtlx_parser():
     return _add_common(parser, "The new file: .mtlx, .glb or .gltf", "file")
 
 
-# Name -> summary, parser.
+# Each command has its summary and the function that makes its parser.
 COMMANDS = {"mtlx": (MTLX_SUMMARY, mtlx_parser), "usd": (USD_SUMMARY, usd_parser)}

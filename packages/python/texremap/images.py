@@ -21,14 +21,14 @@ except ImportError as failure:
         f"images cannot be read or written: {failure} (pip install OpenImageIO)"
     ) from failure
 
-# These are names of the library, OpenImageIO and NumPy.
+# This maps the names of pixel types, which are those of OpenImageIO, to NumPy.
 _DTYPES = {
     "uint8": np.uint8, "uint16": np.uint16, "uint": np.uint32, "int8": np.int8, "int16": np.int16, "int": np.int32,
     "half": np.float16, "float": np.float32, "double": np.float64,
 }
 _WHOLE = {name for name, dtype in _DTYPES.items() if np.issubdtype(dtype, np.integer)}
 
-# These describe the pixel coding, with another meaning in another format, or were derived from the old pixels.
+# These attributes describe the pixel coding, and have another meaning in another format.
 _CODING = (
     "Compression", "CompressionQuality", "jpeg:subsampling", "tiff:Compression", "tiff:RowsPerStrip",
     "tiff:ColorSpace", "tiff:zipquality", "tiff:PhotometricInterpretation", "png:compressionLevel",
@@ -80,8 +80,8 @@ def _is_mixed(spec):
     return len(set(_types(spec))) > 1
 
 
-# These are where and how files of a format begin, the extension that makes OpenImageIO choose its importer, and
-# OpenImageIO's name.
+# Each format has the position and the bytes of its mark, the extension by which OpenImageIO chooses its importer, and
+# the name that OpenImageIO uses.
 _MARKS = (
     (0, b"\x89PNG\r\n\x1a\n", "png", "png"), (0, b"\xff\xd8", "jpg", "jpeg"), (8, b"WEBP", "webp", "webp"),
     (0, b"BM", "bmp", "bmp"), (0, b"II*\0", "tif", "tiff"), (0, b"MM\0*", "tif", "tiff"), (0, b"II+\0", "tif", "tiff"),
@@ -264,7 +264,8 @@ class StoredImage:
         if self.level_count > 1:
             self._fail("cannot be resampled, because it has mip levels")
         if (spec.x, spec.y, spec.width, spec.height) != (spec.full_x, spec.full_y, spec.full_width, spec.full_height):
-            self._fail("cannot be resampled, because its data window differs from its display window")
+            self._fail("cannot be resampled, because its data window differs from its display window "
+                       "(crop it: oiiotool OLD --croptofull -o NEW)")
         spec.width = spec.full_width = width
         spec.height = spec.full_height = height
 
@@ -343,7 +344,7 @@ def _suit_format(spec, format):
     # TIFF tags associated alpha and stores it unchanged; the other formats would divide by it.
     if format != "tiff" or spec.alpha_channel < 0:
         spec.attribute("oiio:UnassociatedAlpha", 1)
-    # Writers add the time of the run, so that equal inputs would not give equal files.
+    # Writers add the time of the run. Equal inputs would then not give equal files.
     if not _text(spec, "DateTime") and format in ("openexr", "tiff"):
         spec.attribute("DateTime", "")
     if format == "openexr":

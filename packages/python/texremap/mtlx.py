@@ -20,7 +20,7 @@ from ._textures import Texture
 _HUB, _GLTF = "open_pbr_surface", "gltf_pbr"
 _MODELS = dict(zip(MTLX_TARGETS, (_HUB, "standard_surface", _GLTF)))
 _GLTF_ENDINGS = (".glb", ".gltf")
-# What importers read of the extensions: the core of glTF, Godot 4 (modules/gltf/gltf_document.cpp).
+# These are the extensions that importers read: none for the core of glTF, two for Godot 4 (modules/gltf/gltf_document.cpp).
 _ALLOWED = {"core": frozenset(), "godot": frozenset({STRENGTH, TRANSFORM})}
 
 

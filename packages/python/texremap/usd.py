@@ -26,7 +26,7 @@ except ImportError as failure:
 
 from ._usd_networks import OPEN_PBR_ID, PreviewNodes, SurfaceNodes, source_of, value_of
 
-# Of the stage, which a layer does not take from its sublayers.
+# A layer does not inherit this metadata of the stage from its sublayers.
 _STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
                    "startTimeCode", "endTimeCode", "autoPlay", "colorConfiguration", "colorManagementSystem")
 _PREVIEW, _OPEN_PBR = "UsdPreviewSurface", "open_pbr_surface"

@@ -144,8 +144,8 @@ struct NewResource {
 
 // An AssetResource is a URI of a file outside the asset.
 struct AssetResource {
-  // Such as `/images/2/uri`. To save time, this is set only for the first URI that is absolute or leads out
-  // of the folder.
+  // This is the place in the file, such as `/images/2/uri`. To save time, this is set only for the first URI
+  // that is absolute or leads out of the folder.
   std::string where;
   std::string path;  // relative to the asset, without percent codes; for kRemote, the address
   UriKind kind = UriKind::kFile;

@@ -16,7 +16,8 @@ inline constexpr std::size_t kLongestMtl = std::size_t{1} << 28, kMostMtlStateme
 
 // An MtlStatement holds the places of a statement in the text.
 struct MtlStatement {
-  // From the indentation to the line ending, which is not included. Lines that backslashes join are one line.
+  // This is the line from its indentation to its ending, without the ending. Lines that backslashes join are
+  // one line.
   TextSpan line;
   TextSpan ending;     // line ending of `line`; empty at the end of the text
   TextSpan word;       // `Kd`

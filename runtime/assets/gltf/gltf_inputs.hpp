@@ -54,7 +54,7 @@ struct GltfInputInfo {
 const GltfInputInfo& info_of(GltfInput input);
 std::span<const GltfInput> all_inputs();
 
-// A FactorText is a number. Its text is that of the file, or that of the clamped value.
+// A FactorText is a number. Its text comes from the file, or is the text of the clamped value.
 struct FactorText {
   double value = 1.0;
   std::string text = "1";

@@ -158,7 +158,8 @@ class SpecGlossToCore final : public GltfDirection {
       if (options_.folds_extensions() && (name == kSpecularExtension || name == kIorExtension))
         edit.removed_extensions.push_back(name == kIorExtension ? kIorExtension : kSpecularExtension);
       else
-        report.warnings.push_back(name + ", ignored in spec-gloss materials, takes effect from now on");
+        report.warnings.push_back(
+            name + " takes effect now, because importers ignore it only in spec-gloss materials");
     }
     return edit;
   }

@@ -41,7 +41,7 @@ struct SpecGlossMaps {
   bool keeps_color = false;  // diffuse is the color map times `diffuse_factors`
   float alpha = 1.0f;        // alpha of a color map that became a factor
   std::array<float, 3> diffuse_factors = {1.0f, 1.0f, 1.0f};
-  // Specular in sRGB, with glossiness as alpha. It is unset if both are factors.
+  // This map has specular in sRGB, and glossiness as alpha. It is unset if both are factors.
   std::optional<ImagePixels> specgloss;
   std::array<float, 3> specular = {1.0f, 1.0f, 1.0f};
   float glossiness = 1.0f;

@@ -23,13 +23,15 @@ struct LegacyMaps {
 
 struct LegacyMapResult {
   MetalRoughFactors factors;  // the base color is 1 if there is a map of it
-  // In sRGB. It is unset if base color is its factor, or the diffuse map times this factor.
+  // This map is sRGB. It is unset if base color is only a factor, or the diffuse map times a factor.
   std::optional<ImagePixels> base_color;
   bool keeps_diffuse = false;  // true if base color is the diffuse map times its factor, within 1/255
   std::optional<ImagePixels> metal_rough;  // packed as in glTF; unset if both are constant
-  // Only for a dielectric. The color is F0 / F in sRGB, and alpha is F / `specular_factor`.
+  // This map is set only for a dielectric. Its color is F0 / F in sRGB, and its alpha is F /
+  // `specular_factor`.
   std::optional<ImagePixels> specular;
-  // Only for a dielectric. It is F, or with a map the largest F, of which alpha is a fraction.
+  // This is set only for a dielectric. It is F. If there is a map, it is the largest F, and alpha is a
+  // fraction of it.
   double specular_factor = 0.0;
   std::array<double, 3> specular_color = {1.0, 1.0, 1.0};  // for a dielectric: F0 / F; 1 if there is a map
 };
@@ -55,7 +57,7 @@ ImagePixels with_levels(const ImagePixels& pixels, double base, double gain, boo
 // Replaces a channel by the values that load_scalar_row() loads from another map of the same size.
 void set_channel(ImagePixels& pixels, std::size_t channel, const ImagePixels& from, char from_channel);
 
-// Loads `count` values of row `y`, from 0 to 1. They come from the channel that MTL gives for maps of one
+// Loads the values of row `y`, from 0 to 1. They come from the channel that MTL gives for maps of one
 // value (-imfchan).
 void load_scalar_row(const ImagePixels& pixels, char channel, std::size_t y, float* values);
 

@@ -50,7 +50,7 @@ MetalRoughFactors core_of_legacy(const LegacyMaterial& material) {
   if (!material.has_highlight()) return {as_floats(material.diffuse), 0.0, 1.0};
   const std::array<double, 3> f0 = ggx_f0(material);
   const double share = dielectric_share(mean_of(material.diffuse), mean_of(f0));
-  // If F0 is below a fortieth of core's F0, the result approaches that without a highlight.
+  // If F0 is below a fortieth of core's F0, the result approaches the result without a highlight.
   const double matte = std::clamp(1.0 - 40.0 * *std::ranges::max_element(f0) / kDielectricF0, 0.0, 1.0);
   const double roughness = ggx_roughness(material);
   std::array<double, 3> base{};

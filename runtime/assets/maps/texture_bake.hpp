@@ -30,8 +30,8 @@ struct CommonGrid {
   bool repeats = true;  // false if coordinates of the mesh must be within 0 to 1
 };
 
-// Chooses the grid. It is that of the texture that repeats least, if all others repeat in it an integer
-// number of times. Otherwise, it is that of a texture that covers coordinates from 0 to 1 without a repeat.
+// Chooses the grid of the texture that repeats least, if all other textures repeat in it an integer number of
+// times. Otherwise, chooses the grid of a texture that covers coordinates from 0 to 1 without a repeat.
 // Returns nothing if there is no such texture. Texels of the grid are as small as the smallest texels of any
 // texture. A side has at most 4096 texels, or as many as the largest image.
 std::optional<CommonGrid> common_grid(const std::vector<TextureGrid>& textures);

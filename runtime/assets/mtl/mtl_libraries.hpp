@@ -45,8 +45,8 @@ class MtlLibraries {
             std::vector<std::string>& warnings);
   // Returns a material by its name. If several materials have this name, returns the first.
   std::optional<Entry> find(const std::string& material) const;
-  // Returns true if Tr is 1 in every material and d in none. By the specification, Tr 1 means invisible, but
-  // MeshLab writes Tr 1 for opaque materials.
+  // Returns true if every material has Tr 1 and no material has d. By the specification, Tr 1 means
+  // invisible, but MeshLab writes Tr 1 for opaque materials.
   bool has_tr_for_opaque() const;
   // Return the files that were read, and the images that they refer to, relative to the OBJ file.
   const std::set<std::string>& paths() const noexcept { return paths_; }

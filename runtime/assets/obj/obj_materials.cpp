@@ -357,8 +357,8 @@ void ObjMaterials::set_converted_maps(MaterialDraft& draft, const LegacyMaterial
   set_extension(draft, kSpecularExtension, std::move(specular));
 }
 
-// Materials with the same maps, factors and opacity share the result. For the first of them, `draft` has the
-// base color, so that opacity can be added before the image is stored.
+// Returns converted images, which materials with the same maps, factors and opacity share. If the base color
+// is not stored yet, sets `draft.base_pixels`, so that opacity can be added before it is stored.
 ObjMaterials::ConvertedImages& ObjMaterials::converted_images(MaterialDraft& draft,
                                                               const LegacyMaterial& factors,
                                                               bool as_dielectric, const MtlMap& data_map) {

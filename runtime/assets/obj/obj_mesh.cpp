@@ -214,8 +214,8 @@ class ObjStream final : public std::streambuf {
     }
   }
 
-  // Returns the vertex index of a corner if the index is positive. Negative indices count from the last
-  // vertex.
+  // Returns the vertex index of a corner, or the largest number if the index is too large. Returns 0 for a
+  // negative index, which counts back from the last vertex and so names a vertex that exists already.
   static std::size_t vertex_of(std::string_view corner) {
     std::size_t number = 0;
     const auto result = std::from_chars(corner.data(), corner.data() + corner.size(), number);

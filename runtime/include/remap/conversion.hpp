@@ -57,7 +57,7 @@ struct ConversionChoice {
   bool is_closest = false;  // true if the user chose a renderer, and target_brdf is its closest model
   // Both or neither are set. Without them, the conversion covers only roughness and specular.
   std::optional<WorkflowEnd> source, target;
-  std::optional<SurfaceTranslation> translation;      // of whole surfaces, instead of a path between BRDFs
+  std::optional<SurfaceTranslation> translation;      // used for whole surfaces, instead of BRDFs
   std::map<Parameter, std::vector<float>> constants;  // values of source parameters that have no map
   double prior = kCleanPrior;
   bool changes_nothing = false;          // both ends are the same material; only files and encodings change
@@ -85,7 +85,7 @@ struct BuiltConversion {
   std::unique_ptr<Converter> owned_brdf = {};  // set if `brdf` does not belong to the graph
   const Converter* brdf = nullptr;             // for width and specular; null if both ends share a BRDF
   ConverterPath path = {};                     // the steps of `brdf`
-  std::optional<ConverterPath> closer = {};    // to a model that matches the highlight more closely
+  std::optional<ConverterPath> closer = {};    // path to a model with a closer highlight
   std::unique_ptr<Converter> material = {};    // for whole materials; null if only width and specular change
 
   // Returns the converter for the whole conversion.

@@ -112,7 +112,7 @@ class MaterialRows {
 // lights that the fit did not use.
 struct PictureDifference {
   double converted = 0.0;
-  std::optional<double> copied;  // the same if numbers are copied
+  std::optional<double> copied;  // the difference if numbers are copied instead
   bool is_estimate = false;      // true for several steps, or if it comes from an image error
   bool operator==(const PictureDifference&) const = default;
 };
@@ -128,7 +128,7 @@ struct ConverterInfo {
   // unknown, or if the fit was made from pictures.
   std::optional<double> roughness_rms_error;
   std::optional<double> specular_rms_error;
-  std::optional<double> image_rms_error;  // of pictures at the best parameters; relative
+  std::optional<double> image_rms_error;  // relative error of pictures at the best parameters
   std::optional<double> ssim;
   std::optional<PictureDifference> pictures;  // unset if the built-in renderer lacks a model
   bool is_copy = false;  // true if both models have one lobe, so that alpha and specular stay unchanged

@@ -83,7 +83,7 @@ inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
 struct WorkflowModel {
   WorkflowEnd end;
   std::string brdf;                // model of its width and specular in the graph of converters
-  bool conventions_known = false;  // a specification or source code states them; else assumed
+  bool conventions_known = false;  // false if they are assumed, because no specification states them
   std::string reason;              // the source of the conventions
 };
 
@@ -96,7 +96,7 @@ const WorkflowModel* find_workflow_model(std::string_view name);
 // A ModelAlias is a name that people use for a workflow model, or for a BRDF model of the graph.
 struct ModelAlias {
   std::string_view name;     // lower case, words joined by '-'
-  std::string_view model;    // from workflow_models(), or such as `legacy/phong`
+  std::string_view model;    // a workflow model, or a BRDF model such as `legacy/phong`
   std::string_view meaning;  // what the name means, by its documentation or source code
 };
 std::span<const ModelAlias> model_aliases();

@@ -27,8 +27,8 @@
 
 namespace remap {
 
-// Lists all members, so that another process can receive them (packed_values.hpp). It has the same constants
-// with rule names.
+// Lists all members, so that another process can send them (packed_values.hpp). Rule names are sent as
+// pointers to constants, which are valid here, because the other process is a copy of this one.
 template <typename Archive>
 void fields(Archive& archive, Fix& fix) {
   archive(fix.words, fix.command, fix.asset, fix.output, fix.options);

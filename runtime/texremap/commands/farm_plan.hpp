@@ -27,7 +27,8 @@ struct PlannedFarm {
   int minutes = 0;           // time limit of each part
 };
 
-// Throws kUsage for words that the files of a plan cannot hold. A line break would begin a script line.
+// Throws kUsage for words that the files of a plan cannot hold. For example, a line break in a word would
+// begin a new line of the script.
 void require_writable(PlanKind kind, const PlannedFarm& farm);
 
 // Returns the files of a plan, each with its name and its text.

@@ -31,7 +31,7 @@ struct ListOptions {
   UsedConverters converters;
 };
 
-// `path` is a path of one step.
+// Returns a shipped converter, which is the only step of `path`, as JSON.
 Json converter_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   const Converter& converter = *path.steps.front();
   const ConverterInfo& info = converter.info();

@@ -33,8 +33,8 @@ std::string reason(const std::vector<ConverterPath>& paths) {
   const ConverterPath &best = paths[0], &next = paths[1];
   if (best.expected_error < next.expected_error) return "its highlight is the closest";
   if (best.steps.size() < next.steps.size())
-    return "its highlight is the closest, as are the highlights of longer paths";
-  return "its highlight is the closest, and its ids come first";
+    return "no path has a closer highlight, and the others that match it have more steps";
+  return "no path has a closer highlight, and its ids come first in the alphabet";
 }
 
 void print_step(std::size_t number, const Converter& step) {

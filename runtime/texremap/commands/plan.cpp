@@ -197,10 +197,10 @@ void plan(const PlanOptions& options) {
     std::string text =
         counted(manifest.head.count, noun_of(manifest.head.kind)) + " in " + counted(farm.parts, "part");
     if (!is_given)
-      text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes by this machine, " +
-              fixed(longest / 60.0, 1) + " the longest part";
-    print_message(kProgram, text + "; " + std::to_string(farm.memory_megabytes) + " MB and " +
-                                std::to_string(farm.minutes) + " minutes at most a part");
+      text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes on this machine, " +
+              fixed(longest / 60.0, 1) + " for the longest part";
+    print_message(kProgram, text + "; each part may use " + std::to_string(farm.memory_megabytes) +
+                                " MB and " + counted(static_cast<std::size_t>(farm.minutes), "minute"));
     if (farm.parts > kMostParts && options.kind == PlanKind::kSlurm)
       print_message(kProgram, "note: clusters with the default MaxArraySize refuse more than " +
                                   std::to_string(kMostParts) + " parts");

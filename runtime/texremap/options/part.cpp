@@ -88,7 +88,7 @@ std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
 Part ArrayJob::part(std::optional<std::size_t> count) const {
   const std::size_t index = *number(scheduler_.index);
   // If the user gives the number of parts, the array may be only some of these parts, for example the failed
-  // ones. Then its first number says nothing.
+  // ones. Then its first number may differ from the first number of the whole array.
   const std::size_t first =
       count ? scheduler_.usual_first : number(scheduler_.first).value_or(scheduler_.usual_first);
   const bool is_given = count.has_value();

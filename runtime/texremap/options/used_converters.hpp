@@ -12,8 +12,8 @@
 
 namespace remap {
 
-// A UsedConverters holds the shipped converters, or those of --converters (a file or folder), which it reads
-// once.
+// A UsedConverters holds the shipped converters, or the converters of --converters. It reads this file or
+// folder only once.
 class UsedConverters {
  public:
   // Adds the option, which every command has. The object must live until the command has run.

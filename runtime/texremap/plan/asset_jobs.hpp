@@ -16,13 +16,14 @@ std::vector<std::filesystem::path> named_assets(const ConvertOptions& options);
 // Returns true if the name belongs to an asset that this program reads.
 bool is_asset(const std::filesystem::path& path);
 
-// Returns the jobs. If `listing` is not null, it is the content of a manifest. If an asset would write a file
-// that another asset has, its job gets a refusal. Throws kUsage if a folder has no assets, and kInput if it
-// cannot be read.
+// Returns the jobs of the assets in `listed`, the content of a manifest, or if it is null, of the assets that
+// the options name. If an asset would write a file of another asset, its job gets a refusal. For assets on
+// the command line, throws kUsage instead. Also throws kUsage if a folder has no assets, and kInput if the
+// folder cannot be read.
 JobList asset_jobs(const ConvertOptions& options, const TreeManifest* listed);
 
 // Returns the assets of a folder as a manifest lists them. `format` is the target of OBJ files, or empty.
-// Throws like asset_list().
+// Throws like asset_jobs().
 TreeManifest tree_of_assets(const std::filesystem::path& folder, const std::string& format);
 
 }  // namespace remap

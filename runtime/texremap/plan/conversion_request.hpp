@@ -28,7 +28,7 @@ CopiedFile copied_normals(const ConvertOptions& options, const std::filesystem::
 // folder. Returns nothing for a pattern and for a name in the folders of sets.
 std::optional<std::filesystem::path> shared_map(const ConvertOptions& options,
                                                 const std::filesystem::path& given);
-// Returns the shared maps of all options.
+// Returns the files that shared_map() finds for all options. Returns none if the source is not a folder.
 std::vector<std::filesystem::path> shared_maps(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice& workflow);
 // Returns what a translation makes of a set, or nothing for other conversions.

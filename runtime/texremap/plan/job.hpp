@@ -19,7 +19,7 @@ namespace remap {
 // Returns the folder that the files of an asset are relative to.
 std::filesystem::path folder_of_asset(const std::filesystem::path& asset);
 
-// A SetWork is one set of single files: a texture set, or one tile of it.
+// A SetWork is a texture set without tiles, or one tile of a set, so that each map is one file.
 struct SetWork {
   TextureSetRequest request;
   std::filesystem::path folder, diagnosis_folder;  // folders for the results

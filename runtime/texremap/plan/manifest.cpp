@@ -32,7 +32,7 @@ bool is_read(const FoundMap& map) {
   });
 }
 
-// A set or an asset with the content of its line.
+// A ListedEntry is a set or an asset, with what its line of the manifest holds.
 template <class Entry>
 struct ListedEntry {
   const Entry& entry;
@@ -337,8 +337,8 @@ ManifestHead write_manifest(const fs::path& file, const fs::path& root, const st
                       ": the name is not UTF-8, so a manifest cannot list it (rename it)");
   const std::vector<ListedEntry<FoundSet>> sets = listed_all(root, found.sets, head, found.problems);
   const std::vector<ListedEntry<ListedAsset>> assets = listed_all(root, tree.assets, head, found.problems);
-  // The hash comes before the lines. So the lines are made twice, because a manifest may be too large to
-  // keep.
+  // The first line holds a hash of the other lines. They are made twice, because all of them may not fit into
+  // memory.
   const auto make_lines = [&](const auto& take) {
     for (const ListedEntry<FoundSet>& set : sets) take(line_of(set));
     for (const ListedEntry<ListedAsset>& asset : assets) take(line_of(asset));

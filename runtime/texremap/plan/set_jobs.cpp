@@ -141,7 +141,7 @@ JobList SetJobs::list() {
   jobs_.is_of_folder = jobs_.has_several = true;
   if (is_in_place_ && !choice_.layout.keeps_names)
     jobs_.notes.push_back("results are written beside the maps of " + display_path(root_) +
-                          ", so that a later run reads both (choose another folder for --output)");
+                          ", and a later run will read both (choose another folder for --output)");
   leave_out_shared();
   for (const fs::path& image : found_.unrecognised) jobs_.unrecognised.push_back(root_ / image);
   jobs_.asset_count = found_.others.size();

@@ -1,5 +1,5 @@
 // This file lists the texture sets that a run converts: the one on the command line, its tiles, or the sets
-// of a folder or a manifest. Each job converts a set of single files.
+// of a folder or a manifest. In the set of a job, each map is one file.
 #pragma once
 
 #include <optional>

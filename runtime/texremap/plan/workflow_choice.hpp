@@ -1,5 +1,5 @@
-// This file interprets `--from`, `--to` and the workflow options: both materials, and the assumed
-// conventions.
+// This file finds the source and target materials from `--from`, `--to` and the workflow options. It assumes
+// conventions that the options do not state.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ class JobLooks {
   explicit JobLooks(const ConvertPlan& plan, const ModelTest& before = is_linear_lobe,
                     const ModelTest& after = is_linear_lobe);
 
-  // Returns notes about what is not shown, and about models that another model stands for.
+  // Returns notes about what is not shown, and about models that are shown by another model.
   const std::vector<std::string>& notes() const { return notes_; }
   // Returns the name above the copied look.
   std::string copied_title() const;

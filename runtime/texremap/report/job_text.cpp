@@ -92,10 +92,11 @@ void print_confidence(const std::string& context, const SetPlan& sets, const Job
   print_message(kProgram, context + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) +
                               " rms, " + fixed(static_cast<double>(metallic.largest_residual), 3) +
                               " at most");
-  print_message(kProgram,
-                context + "metallic undetermined, no visible effect: " + share(metallic.undetermined.count) +
-                    " (too dark: " + share(metallic.dark.count) + "); ambiguous: " +
-                    share(metallic.ambiguous.count) + "; clamped: " + share(metallic.clamped.count));
+  print_message(kProgram, context + "metallic is undetermined, without visible effect, in " +
+                              share(metallic.undetermined.count) + " of the texels (too dark in " +
+                              share(metallic.dark.count) + "), ambiguous in " +
+                              share(metallic.ambiguous.count) + ", clamped in " +
+                              share(metallic.clamped.count));
 }
 
 std::string value_text(const SurfaceValue& value) {

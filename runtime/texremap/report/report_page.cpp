@@ -39,7 +39,8 @@ constexpr std::size_t kLargestPng = 256 * 1024;                       // a large
 constexpr int kLightRows = 128;                                       // of the light that the viewer reads
 constexpr int kJpegQuality = 85;
 
-// These are the images of a page: data URIs by a hash of their bytes, so that equal ones are there once.
+// These are the images of a page: data URIs by a hash of their bytes, so that the page holds equal images
+// only once.
 using PageImages = std::map<std::string, std::string>;
 
 // Returns the key of an image.
@@ -283,7 +284,8 @@ class ReportPage {
     return side;
   }
 
-  // Reads the files of strangers in processes of their own, as the conversion does.
+  // Reads the files in separate processes, as the conversion does, because a hostile file may crash a
+  // decoder.
   void add_materials() {
     const std::vector<Job>& jobs = plan_.list.jobs;
     ApartJobs apart;

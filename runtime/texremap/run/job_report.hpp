@@ -36,8 +36,8 @@ struct JobReport {
   std::string name;                // empty for the only set of a command line
   std::vector<std::string> tiles;  // converted tiles; empty if the set has no tiles
   std::vector<std::filesystem::path> inputs;
-  // These include planned results, in a dry run and after a failure. For an asset they are the asset, unless
-  // nothing is written, and its new images.
+  // After a dry run or a failure, these are the planned results. For an asset, these are the asset and then
+  // its new images, or none if nothing was converted and something failed.
   std::vector<Result> results;
   std::vector<std::filesystem::path> copies;  // copied files, also those that are only planned
   std::vector<std::string> warnings;

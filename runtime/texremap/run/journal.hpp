@@ -7,8 +7,8 @@
 //   {"set": "a", "inputs": "HASH", "conversion": "HASH", "source": ..., "target": ...,
 //    "files": [{"name": "a_rough.tga", "bytes": 1234, "hash": "..."}, ...]}
 //
-// The last line `conversion` counts. `begun` is written before the first file of a set, and `set` after the
-// last.
+// Only the last line with `conversion` is valid. `begun` is written before the first file of a set, and `set`
+// after the last.
 //
 // Names are relative to the folder. A line that cannot be read, such as the last one of a killed run, is
 // ignored. A run that converts a part of a manifest writes a separate journal, `.texremap-parts/NAME.journal`

@@ -142,7 +142,8 @@ class SetWorker {
   std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_issues(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
   // Returns the encoding of roughness results if neither a name nor an option gives it. With a workflow, it
-  // is the target model's. Otherwise, it is the encoding of the inputs if known, or else the target model's.
+  // is the target model's. Otherwise, it is the encoding of the inputs, or the target model's if that is
+  // unknown.
   RoughnessEncoding usual_width(const TextureSet& set) const {
     if (chosen_.choice.is_material()) return width_of(*chosen_.choice.target);
     return set.convention.value_or(chosen_.info().target.roughness);

@@ -13,7 +13,7 @@
 namespace remap {
 namespace {
 
-// In a valid file of these formats, one byte never stands for more bytes of pixels, except in pictures of one
+// In a valid file of these formats, one byte never encodes more bytes of pixels, except in pictures of one
 // color.
 constexpr std::uint64_t kMostBytesOfAByte = 1'000'000;
 // A header that claims more texels than this is damaged or an attack.

@@ -306,7 +306,9 @@ void OpenedImage::set_followed_size(int width, int height) {
   OIIO::ImageSpec& spec = levels_.front();
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
-    fail("cannot be resampled, because its data window differs from its display window");
+    fail(
+        "cannot be resampled, because its data window differs from its display window (crop it: oiiotool OLD "
+        "--croptofull -o NEW)");
   spec.width = spec.full_width = width;
   spec.height = spec.full_height = height;
 }

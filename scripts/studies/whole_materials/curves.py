@@ -37,7 +37,7 @@ def sheen(roughness):
     return {"base": 0, "specular": 0, "sheen": 1, "sheen_roughness": roughness}
 
 
-# An index of refraction of 1 reflects nothing, but in both models it takes the same light from the lobes below.
+# At an index of refraction of 1, the specular lobe reflects nothing, and both models dim the lobes below it equally.
 def eon(roughness, albedo):
     return {"base_color": (albedo,) * 3, "base_diffuse_roughness": roughness, "specular_ior": 1}
 

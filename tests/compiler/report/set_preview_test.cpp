@@ -1,5 +1,5 @@
-// Previews of texture sets: balls of uniform maps equal the spheres of numbers, maps lie on the ball as they
-// are written, and the figures follow from the conversion.
+// This file tests previews of texture sets. A ball with uniform maps must equal a sphere with the same
+// numbers, each texel must appear at its place on the ball, and the errors must follow from the conversion.
 #include "report/set_preview.hpp"
 
 #include <cmath>
@@ -137,7 +137,7 @@ TEST_CASE("set preview: a set that does not change looks the same, and Blender's
   REQUIRE(other.notes.size() == 2);
   CHECK_THAT(other.notes[0], Contains("is shown as mitsuba/ggx"));
 
-  // Roughness and specular alone, without a diffuse lobe.
+  // The set has only roughness and specular, without a diffuse lobe.
   std::filesystem::rename(folder.path() / "sets/tile_basecolor.png",
                           folder.path() / "sets/tile_specular.png");
   const SetPreview lobe = preview_of(folder, "mitsuba/ward", "mitsuba/as");

@@ -53,7 +53,7 @@ std::vector<std::string> logged(const std::string& opening) {
   return lines;
 }
 
-// Returns how many workers of the log still run, or have not been seen to end.
+// Returns how many workers of the log still run. A worker that ended counts until its parent waits for it.
 std::ptrdiff_t crowd() {
   const std::vector<std::string> ids = logged("process ");
   return std::count_if(ids.begin(), ids.end(),

@@ -128,7 +128,7 @@ TEST_CASE("translation: the effect on a set of maps is found") {
                 {{Parameter::kBaseColor, {}}, {*parameter_named("coat_color"), {}}});
   CHECK(hidden.lost == std::vector<std::string>{"coat_color"});
 
-  // Numbers alone: every value that is not the default.
+  // If only numbers are given, the result lists every value that is not the default.
   const TranslationEffect numbers = effect_of({Surface::kUsdPreview, Surface::kOpenPbr},
                                               {{Parameter::kRoughness, std::vector<float>{0.4f}}});
   CHECK(numbers.written.empty());

@@ -98,10 +98,10 @@ TEST_CASE("What cannot be represented is said", "[assets]") {
                                  "specularFactor -1 is outside of 0 to 1 and becomes 0",
                                  "glossinessFactor 96.08 is outside of 0 to 1 and becomes 1"});
   CHECK(warnings(specgloss_text(R"({"extensions":{"ACME":{}},"odd":1},"KHR_materials_clearcoat":{})")) ==
-        std::vector<std::string>{
-            "loses extensions (ACME) of KHR_materials_pbrSpecularGlossiness",
-            "loses odd of KHR_materials_pbrSpecularGlossiness",
-            "KHR_materials_clearcoat, ignored in spec-gloss materials, takes effect from now on"});
+        std::vector<std::string>{"loses extensions (ACME) of KHR_materials_pbrSpecularGlossiness",
+                                 "loses odd of KHR_materials_pbrSpecularGlossiness",
+                                 "KHR_materials_clearcoat takes effect now, because importers ignore it only "
+                                 "in spec-gloss materials"});
   CHECK(failure(specgloss_text(R"({"diffuseFactor":[1,1,1]})")) ==
         "diffuseFactor: expected a list of 4 numbers, found [1,1,1]");
   CHECK(failure(specgloss_text(R"({"glossinessFactor":"a"})")) ==
