@@ -506,8 +506,10 @@ void check_single(const Tree& tree, const Batch& batch, const Set& set, const nl
   maps.erase("other");
   if (batch.actual_layout() == "as-inputs") maps.erase("occlusion");
   for (const auto& [role, map] : maps) {
-    const std::string option = role == "base_color" ? "base-color" : role;
-    words.insert(words.end(), {"--" + option, map});
+    if (role == "occlusion")
+      words.insert(words.end(), {"--input", "occlusion=" + map});
+    else
+      words.insert(words.end(), {role == "base_color" ? "--base-color" : "--" + role, map});
   }
   if (set.is_glossy) {  // this option is only for maps of roughness
     const auto encoding = std::find(words.begin(), words.end(), "--roughness-encoding");
