@@ -195,8 +195,8 @@ Json counts_json(const MapStatistics& counts) {
           {"aboveOne", counts.above_one_count}};
 }
 
-// A BegunMaps holds maps that are converted one band of rows at a time, all at the same places. They stay for
-// further calls.
+// A BegunMaps holds maps that are converted one band of rows at a time. Every band overwrites the same
+// memory, so texremap_convert_band() needs no new description of the maps.
 struct BegunMaps {
   const Converter& converter;
   MapConversion maps;

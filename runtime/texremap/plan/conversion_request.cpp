@@ -257,8 +257,10 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
                                        ", which stores " + std::string(encoding_name(*held)) +
                                        " (use --layout separate)");
   if (options.only == Parameter::kSpecular)
-    throw Error(ErrorKind::kUsage,
-                "--output-encoding: has no effect, because --only specular writes no roughness");
+    throw Error(
+        ErrorKind::kUsage,
+        "--output-encoding: has no effect, because --only specular writes no roughness (remove one of "
+        "the two)");
 }
 
 }  // namespace
