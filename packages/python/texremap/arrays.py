@@ -11,7 +11,7 @@ from . import _core
 from ._error import Error
 
 _COLORS = {"specular", "diffuse", "base_color", "residual"}
-_SURELY_NO_FRACTION = 2  # from here on a value is not a fraction
+_SURELY_NO_FRACTION = 2  # values from 2 on cannot be fractions
 _LOOKED_AT = 64  # values of each axis of an array
 _MEASURES = ("residual", "metallic_uncertainty", "issues")
 
@@ -341,7 +341,7 @@ def _kept_converter(source, target, options):
     if options.get("converters") is None:
         try:
             return _made_once(source, target, tuple(sorted(options.items())))
-        except TypeError:  # it cannot be a key
+        except TypeError:  # an option that cannot be hashed
             pass
     return Converter(source, target, **options)
 

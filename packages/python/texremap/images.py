@@ -39,7 +39,7 @@ _COLOR_SPACE = ("oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace", "png:cicp", 
 _NOTED_COLOR_SPACE = "remap:color_space"
 _MOST_PARTS = 4096
 MOST_TEXELS = 1 << 30  # of an image that is decoded as a whole
-_MOST_BYTES_OF_A_BYTE = 1_000_000  # no format packs more
+_MOST_BYTES_OF_A_BYTE = 1_000_000  # no format packs more bytes of pixels into a byte of the file
 _SMALLEST_PNG = 9
 _opening = threading.Lock()
 

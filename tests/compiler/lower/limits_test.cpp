@@ -11,7 +11,8 @@ using namespace remap;
 
 namespace {
 
-// Returns `oversize` of a fit with this mapping. Writing the fit must agree with it.
+// Returns the message of oversize() for a fit with this mapping. Checks that writing this fit fails with the
+// same message, or succeeds if there is none.
 std::string refusal(const MappingKind& mapping) {
   Fit fit = example_fit();
   fit.mapping = mapping;

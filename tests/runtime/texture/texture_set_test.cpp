@@ -105,7 +105,7 @@ TEST_CASE("texture set: the last colon separates a file from its channels") {
   CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
   CHECK(map(":G").file == ":G");
   for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
-  // If a file has the whole name, it is used.
+  // If a file with this whole name exists, `:G` is part of the name and not a channel.
   const Files files;
   const std::string odd = files.image("odd:G.exr", {"Y"}).string();
   CHECK(map(odd).file == odd);

@@ -227,7 +227,7 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   CHECK(transform["scale"].raw() == "[2.0,3.0]");
   CHECK(transform["offset"].raw() == "[0.5,-2.0]");
   CHECK(scene.entry("materials", 0)["normalTexture"]["scale"].raw() == "0.5");
-  // A .gltf refers to the files.
+  // A .gltf file refers to images and buffer by their names, and does not contain them.
   resources.files["a.mtl"] = mtl;
   const AssetConversion beside = gltf_of_obj(MemorySource(obj), "file.obj", {}, resources, "my mesh.bin");
   CHECK(beside.text.find("\"uri\":\"a%20b.png\"") != std::string::npos);
