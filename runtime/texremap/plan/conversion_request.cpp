@@ -358,7 +358,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
   if (options.only) choice.parameters = {*options.only};
   if (workflow.changes_nothing) choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
-                                        colors_among(choice.parameters), "is written");
+                                        colors_among(choice.parameters), "is written (remove this option)");
   require_encoding(options, choice);
   return choice;
 }
