@@ -200,7 +200,7 @@ TEST_CASE("image reader: only the first part of a file counts the parts, which t
   CHECK_THROWS_WITH(ImageReader(more, 128), Contains("has more than 128 parts"));
 }
 
-TEST_CASE("texture set: a lack of open files is no fault of the image") {
+TEST_CASE("texture set: a lack of open files is not reported as a fault of the image") {
   const Files files;
   const auto image = files.image("r.exr", {"Y"});
   (void)image_library();  // loads the module first, because loading opens files, too

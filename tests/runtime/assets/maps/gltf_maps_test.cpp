@@ -462,7 +462,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
   CHECK(compact_bytes < plain_bytes);
 }
 
-TEST_CASE("Files that only spare images named are no longer of the asset", "[assets]") {
+TEST_CASE("Files that only unused images refer to no longer belong to the asset", "[assets]") {
   PlainResources resources;
   resources.files["a.png"] = file_of(random_pixels(3, 1));
   resources.files["b.png"] = file_of(random_pixels(4, 2));

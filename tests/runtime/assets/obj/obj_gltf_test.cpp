@@ -105,7 +105,7 @@ TEST_CASE("Polygons are taken to triangles, corners are shared, materials are pa
   CHECK(scene.shapes[0].primitives[0].texcoords.empty());
 }
 
-TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of faces", "[assets]") {
+TEST_CASE("Groups and objects become nodes; normals get length 1, or come from faces", "[assets]") {
   const ObjScene scene = read(kTriangle +
                               "vn 0 0 2\nvn 0 0 0\nvn 3 0 4\ng one  two\nf 1//1 2//1 3//1\ng\nf 1//3 "
                               "2//2 3\no \tbox one\t\nf 1 2//2 3\n");
