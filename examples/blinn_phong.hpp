@@ -1,4 +1,4 @@
-// A minimal renderer of one sphere with Lambert and Blinn-Phong, used by lambert_worker.cpp.
+// This file is a minimal renderer of one sphere with Lambert and Blinn-Phong. lambert_worker.cpp uses it.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Converts maps by one generated header, and compares the result with maps that texremap converted. To build
-// it: g++ -std=c++17 -O2 -ffp-contract=off -I generated examples/convert_maps_by_header.cpp -lOpenImageIO
-// -lOpenImageIO_Util
+// This program converts maps by one generated header, and compares the result with maps that texremap
+// converted. To build it: g++ -std=c++17 -O2 -ffp-contract=off -I generated
+// examples/convert_maps_by_header.cpp -lOpenImageIO -lOpenImageIO_Util
 #include <cstdio>
 #include <vector>
 

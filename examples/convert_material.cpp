@@ -1,4 +1,4 @@
-// Converts one material by a generated header, which needs only the standard library:
+// This program converts one material by a generated header, which needs only the standard library:
 //   g++ -std=c++17 -I generated examples/convert_material.cpp -o convert_material
 #include <cstdio>
 

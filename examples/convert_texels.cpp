@@ -1,5 +1,5 @@
-// Converts interleaved RGBA texels, specular and its width in one, by any header of BRDFs: floats, and
-// numbers of 8 bits.
+// This program converts interleaved RGBA texels by a header of BRDFs. Red, green and blue are specular, and
+// alpha is the width. The texels are floats, or integers of 8 bits.
 //   g++ -std=c++17 -O2 -I generated examples/convert_texels.cpp -o convert_texels
 #include <cstdio>
 

@@ -1,5 +1,5 @@
-// A complete worker (compiler/adapters/PROTOCOL.md) for the renderer of blinn_phong.hpp. To write your own,
-// replace the model and the renderer.
+// This program is a complete worker (compiler/adapters/PROTOCOL.md) for the renderer of blinn_phong.hpp. To
+// write your own worker, replace the model and the renderer.
 #include <fstream>
 #include <iostream>
 #include <string>

@@ -1,6 +1,6 @@
-// Makes a texture set for trying texremap: brushed copper with scratches and patina. It writes a roughness
-// map (one channel, alpha) and a specular map (RGB, linear) as half-float EXR. The maps tile, and every run
-// writes the same bytes.
+// This program makes a texture set for trying texremap: brushed copper with scratches and patina. It writes a
+// roughness map (one channel, alpha) and a specular map (RGB, linear) as half-float EXR. The maps tile, and
+// every run writes the same bytes.
 //   scratched_metal FOLDER [SIZE]
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ float random_at(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   return static_cast<float>((h ^ h >> 16) >> 8) * 0x1p-24f;
 }
 
-// Periodic value noise over the unit square with `columns` x `rows` lattice cells.
+// A Noise is periodic value noise over the unit square with `columns` x `rows` lattice cells.
 struct Noise {
   std::uint32_t columns, rows, seed;
 
@@ -61,7 +61,7 @@ float cloud(float u, float v, std::uint32_t cells, std::uint32_t seed) {
   return sum;
 }
 
-// The depth of the scratches, 0 to 1, in a square map.
+// A Scratches is a square map of the depth of the scratches, 0 to 1.
 class Scratches {
  public:
   Scratches(int size, std::uint32_t count)

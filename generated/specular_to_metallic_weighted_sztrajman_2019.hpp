@@ -202,7 +202,7 @@ inline constexpr std::size_t kMetallicBlock = 16;
 // rows), F0 (three rows), and the width in its own encoding.
 struct SpecularTexels {
   ClampedBlock<7, kMetallicBlock> clamped;
-  std::uint32_t nan[kMetallicBlock];  // all bits where any of them is not a number
+  std::uint32_t nan[kMetallicBlock];  // all bits are 1 if one of the seven values of a texel is NaN, else 0
 };
 
 inline std::size_t read_specular(const Conventions& use, const std::array<const float*, 7>& in,

@@ -35,7 +35,7 @@ async function bundled(entry, alias = {}) {
 const inline = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const filled = (values) => sourceText('index.html').replace(/%([A-Z]+)%/g, (_, name) => values[name]);
 
-// The browser itself lets nothing out.
+// With this policy, the browser itself prevents that the page sends anything to other servers.
 const policy = (scripts, worker, connect) =>
   `default-src 'none'; script-src ${scripts} 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src data: blob:; `
   + `worker-src ${worker}; connect-src ${connect}; base-uri 'none'; form-action 'none'`;

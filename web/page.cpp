@@ -16,7 +16,7 @@ namespace {
 Json names() {
   Json engines = Json::list(), models = Json::list();
   for (const NamedLayout& engine : engine_layouts())
-    if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` is only the material
+    if (!engine.words.empty()) engines.push_back(engine.name);  // `--to gltf` names only a material
   const ConverterGraph graph = shipped_graph();
   for (const std::string& name : graph.models()) models.push_back(name);
   return {{"programs", names_json(known_programs())},

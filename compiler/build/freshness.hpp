@@ -26,8 +26,8 @@ bool has_table(const ManifestItem& item);
 // Returns a hash of what an item is made from. `lock` has the current state of its inputs.
 std::string recipe_hash(const ManifestItem& item, const Lock& lock);
 
-// A Freshness states which files of an item the lock records and still match their inputs. A file is only
-// fresh if those before it are.
+// A Freshness states which files of an item are in the lock and still match their inputs. A file is fresh
+// only if the files before it are fresh.
 enum class Freshness { kNothing, kTable, kFit, kAll };
 
 // `reason` receives why the first stale file is not fresh.

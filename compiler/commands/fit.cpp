@@ -3,6 +3,8 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <unistd.h>
 
 #include "command_line/run_app.hpp"
@@ -200,7 +202,13 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   std::vector<Fit> compared;
   Fit fit = [&] {
     ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
-    return fit_table(table, bytes, command.options, std::ref(progress), &compared);
+    try {
+      return fit_table(table, bytes, command.options, std::ref(progress), &compared);
+    } catch (const Error& error) {
+      // Errors of a regression begin with its name, not with the table.
+      if (!std::string_view(error.what()).starts_with(std::string(command.options.kind) + ": ")) throw;
+      throw Error(error.kind(), table.name + ": " + error.what());
+    }
   }();
   lower_if_possible(command, &fit);
   write_file(path, fit_to_json(fit));

@@ -132,7 +132,7 @@ ConvertPlan plan_of(const PreviewCommand& command) {
   options.to = command.to;
   options.converters = command.converters;
   options.recursive = command.recursive;
-  // No file is written there.
+  // Planning requires a path for the results, but a preview writes nothing there.
   options.output =
       std::filesystem::path(command.subject) / (is_obj_name(command.subject) ? "preview.glb" : "preview");
   options.dry_run = options.force = true;
@@ -155,7 +155,8 @@ void run_sets(const Command& given, const PreviewCommand& command) {
   SetPreviewOptions options;
   options.light = std::get<Environment>(light.light);
   if (given.count("--resolution") > 0) options.resolution = command.options.resolution;
-  // Pictures of different renderers do not share light directions, so that their noise does not cancel.
+  // Pictures of different renderers do not share light directions, so their noise does not cancel, and more
+  // directions are needed.
   if (has_renderer) options.directions = kUnsharedDirections;
   if (given.count("--directions") > 0)
     options.directions = options.external_directions = command.options.directions;

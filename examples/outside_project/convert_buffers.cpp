@@ -1,5 +1,5 @@
-// Converts maps in memory, as an asset pipeline would, without files or an image library. The 8-bit RGBA
-// buffer holds specular (sRGB) and glossiness in its alpha channel, and is converted in place.
+// This program converts maps in memory, as an asset pipeline would, without files or an image library. The
+// 8-bit RGBA buffer holds specular (sRGB), and glossiness in its alpha channel. It is converted in place.
 #include <cstdint>
 #include <cstdio>
 #include <remap/convert_maps.hpp>

@@ -1,4 +1,5 @@
-// Converts a row of texels, roughness and RGB specular, by the batch function of a generated header.
+// This program converts a row of texels (roughness and RGB specular) by the batch function of a generated
+// header.
 #include <array>
 #include <cstdio>
 #include <remap/mitsuba_ward_to_mitsuba_as.hpp>

@@ -22,7 +22,7 @@ const FLAGS = ['resample'];
 const FILE = 'document.gltf', OUT = 'out';
 
 function wordsOf(options) {
-  const words = ['convert', FILE, '-o', OUT, '--json', '--keep-unused'];  // glTF-Transform has prune()
+  const words = ['convert', FILE, '-o', OUT, '--json', '--keep-unused'];  // prune() of glTF-Transform removes unused parts
   for (const [name, value] of Object.entries(options)) {
     if (!(name in COMMAND_OPTIONS) || value === undefined || value === false) continue;
     words.push(FLAGS.includes(name) ? COMMAND_OPTIONS[name] : `${COMMAND_OPTIONS[name]}=${value}`);
@@ -122,7 +122,7 @@ function dependenciesOf(properties) {
   const found = new Set(properties);
   for (const property of found)
     for (const child of property.getGraph().listChildren(property)) found.add(child);
-  return [...found].filter(({ propertyType }) => propertyType !== PropertyType.TEXTURE_INFO);  // their owners copy these
+  return [...found].filter(({ propertyType }) => propertyType !== PropertyType.TEXTURE_INFO);  // copied together with their owners
 }
 
 // Copies properties of one document, and what they refer to, into another. `known` maps properties to existing copies, and

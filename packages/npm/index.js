@@ -193,7 +193,7 @@ function arraysInto(name, value) {
   return given.arrays ? given : fail(`into.${name}: expected a typed array, or a list of three`);
 }
 
-const SURELY_NO_FRACTION = 2;  // from here on a value is not a fraction
+const SURELY_NO_FRACTION = 2;  // values from 2 on cannot be fractions
 const LOOKED_AT = 4093;  // a prime, so that no channel of interleaved values is skipped
 
 // Refuses values that can only be per cent or 0 to 255. It skips exponents and wide ranges of specular.

@@ -4,7 +4,7 @@ import { decode, encode } from 'fast-png';
 export const isPng = (bytes) => bytes[0] === 0x89 && bytes[1] === 0x50;
 
 const MOST_TEXELS = 2 ** 30;
-const MOST_BYTES_OF_A_BYTE = 1e6;  // no format packs more
+const MOST_BYTES_OF_A_BYTE = 1e6;  // no format packs more bytes of pixels into a byte of the file
 const SIGNATURE = 8, CHUNK = 12;  // sizes of the signature, and of a chunk without data
 const IHDR = 0x49484452, IEND = 0x49454e44;
 const CHANNELS = [1, 1, 3, 1, 2, 2, 4];  // by the color type

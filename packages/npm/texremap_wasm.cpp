@@ -195,8 +195,8 @@ Json counts_json(const MapStatistics& counts) {
           {"aboveOne", counts.above_one_count}};
 }
 
-// A BegunMaps holds maps that are converted one band of rows at a time, all at the same places. They stay for
-// further calls.
+// A BegunMaps holds maps that are converted one band of rows at a time. Each band is put into the same
+// memory, so one description serves all bands, and also later calls with the same maps.
 struct BegunMaps {
   const Converter& converter;
   MapConversion maps;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -164,7 +165,10 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   // This happens if the program that reads the output, such as `head`, has read enough. No call since then
   // could have changed errno.
   if (!std::cout && errno == EPIPE) return 1;
-  if (!std::cout) throw Error(ErrorKind::kOutput, "standard output: cannot be written");
+  if (!std::cout)
+    throw Error(ErrorKind::kOutput,
+                "standard output: cannot be written" +
+                    (errno == 0 ? std::string() : ": " + std::string(std::strerror(errno))));
   return 0;
 }
 

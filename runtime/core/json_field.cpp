@@ -92,9 +92,10 @@ Field Field::at(std::size_t index, std::size_t count) const {
 
 std::size_t Field::entry_count(std::size_t fewest, std::size_t most) const {
   require(value_.entries() != nullptr && value_.size() >= fewest,
-          "a list of at least " + std::to_string(fewest));
+          "a list of at least " + std::to_string(fewest) + (fewest == 1 ? " entry" : " entries"));
   if (value_.size() > most)
-    fail("has " + std::to_string(value_.size()) + " entries; at most " + std::to_string(most) + " are read");
+    fail("has " + std::to_string(value_.size()) + " entries, but at most " + std::to_string(most) +
+         " can be read");
   return value_.size();
 }
 
@@ -110,8 +111,8 @@ std::vector<std::string> Field::texts() const {
 std::string Field::line() const {
   const std::string line = text();
   if (line.size() > kLongestLine)
-    fail("has a text of " + std::to_string(line.size()) + " bytes; at most " + std::to_string(kLongestLine) +
-         " are read");
+    fail("has a text of " + std::to_string(line.size()) + " bytes, but at most " +
+         std::to_string(kLongestLine) + " can be read");
   return line;
 }
 
@@ -148,8 +149,8 @@ std::int64_t Field::count() const {
 const Json::Object& Field::entry_fields() const {
   require(value_.fields() != nullptr, "an object");
   if (value_.size() > kMostLines)
-    fail("has " + std::to_string(value_.size()) + " entries; at most " + std::to_string(kMostLines) +
-         " are read");
+    fail("has " + std::to_string(value_.size()) + " entries, but at most " + std::to_string(kMostLines) +
+         " can be read");
   for (const auto& [key, value] : *value_.fields())
     if (!is_plain_text(key)) fail("expected " + std::string(kPlainText) + ", found the name \"" + key + "\"");
   return *value_.fields();

@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Limits text of others in a message. This is about one screen.
+// Limits text in a message that comes from an input file or another program. 2000 bytes are about one screen.
 inline constexpr std::size_t kLongestMessage = 2000;
 
 // Returns true if `text` is UTF-8 that looks the same in every program. It has no control characters and no

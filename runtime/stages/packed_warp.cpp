@@ -7,7 +7,8 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kLanes = 4;  // number of dimensions, filled with zeros
+// Every vector has this many values. If the warp has fewer dimensions, the rest are zeros.
+constexpr std::size_t kLanes = 4;
 
 void pack_terms(const AppearanceCoordinates& space, const SeparableTerms& terms, PackedWarp& result) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);

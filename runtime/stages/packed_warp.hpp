@@ -26,9 +26,9 @@ struct PackedWarp {
 
   std::int32_t nodes = 0;                                   // nodes of the table along each dimension
   std::array<float, kLargestWarpDimension> low{}, scale{};  // position between nodes: (x - low) * scale
-  // A table that is blended between nodes.
+  // This is the table of a warp that blends parameters between nodes.
   std::vector<float> entries;  // nodes x 8: 7 decoded parameters, then 0
-  // A table of copied texels.
+  // These are the table of a warp that copies texels.
   std::vector<std::uint16_t> indices;
   std::vector<float> palette;  // 7 parameters for each texel, then one 0
 

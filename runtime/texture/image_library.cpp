@@ -8,7 +8,7 @@ namespace remap {
 namespace {
 
 std::mutex limits_mutex;
-std::optional<std::pair<int, std::uint64_t>> wanted_limits;  // unset once the library has the limits
+std::optional<std::pair<int, std::uint64_t>> wanted_limits;  // unset after the library has got the limits
 
 }  // namespace
 

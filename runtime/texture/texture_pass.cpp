@@ -257,8 +257,8 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
 void Pass::add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
                       MapConversion& maps) const {
   TargetParameter& parameter = maps.targets[channel.parameter];
-  // If all result channels of the parameter have the same value, they are kept in any order. The channels of
-  // other colors have fixed places.
+  // If all result channels of the parameter have the same value, their order does not matter, and this one is
+  // appended. Otherwise red, green and blue must be at their index.
   const auto source = set_.parameters.find(channel.parameter);
   const bool is_copy = !is_color(channel.parameter) ||
                        (source != set_.parameters.end() && source->second.channel_count() == 1 &&

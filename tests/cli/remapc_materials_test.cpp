@@ -1,4 +1,4 @@
-// Runs `remapc sweep` with stages and diffuse, and `remapc sample`.
+// This file tests `remapc sweep` with stages and diffuse, and `remapc sample`.
 #include <filesystem>
 
 #include <catch2/catch.hpp>

@@ -119,7 +119,7 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures and warn
         std::string::npos);
 }
 
-TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its color", "[slow]") {
+TEST_CASE("remapc warp: a single diffuse map is a source, distinguished by its color", "[slow]") {
   const Session session;
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);

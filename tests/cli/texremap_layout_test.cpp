@@ -25,7 +25,8 @@ std::vector<float> channel(const Session& session, const std::string& name, int 
 }
 
 Words packed(const std::string& path) {
-  return "--roughness " + path + ":G --input occlusion=" + path + ":R --metallic " + path + ":B --specular 0.4";
+  return "--roughness " + path + ":G --input occlusion=" + path + ":R --metallic " + path +
+         ":B --specular 0.4";
 }
 
 }  // namespace
@@ -51,9 +52,9 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   // The maps are packed again and converted to another model. Then as-inputs keeps that layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
-                          "--roughness " + named("apart/roughness") + " --input occlusion=" +
-                              named("apart/occlusion") + " --metallic " + named("apart/metallic") +
-                              " --specular 0.4 --layout " + layout,
+                          "--roughness " + named("apart/roughness") +
+                              " --input occlusion=" + named("apart/occlusion") + " --metallic " +
+                              named("apart/metallic") + " --specular 0.4 --layout " + layout,
                           "packed"));
   CHECK(channel(session, named("packed/" + layout), 0) == channel(session, named("in"), 0));
   CHECK(channel(session, named("packed/" + layout), 2) == channel(session, named("in"), 2));
@@ -135,7 +136,7 @@ const std::vector<Arrangement> kArrangements = {
 
 }  // namespace
 
-TEST_CASE("texremap layouts: the same material is arranged anew, and no stored value changes", "[slow]") {
+TEST_CASE("texremap layouts: the same material is arranged again, and no stored value changes", "[slow]") {
   const Session session;
   write_orm_set(session);
   for (const Arrangement& to : kArrangements) {
@@ -235,7 +236,7 @@ TEST_CASE("texremap: of several maps of one parameter, one is taken and named, o
         complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
 }
 
-TEST_CASE("texremap: maps of a folder by a name with * for that of the set") {
+TEST_CASE("texremap: maps of a folder are found by a name with * for the name of the set") {
   const Session session;
   write_orm_set(session);
   const OIIO::ImageSpec spec = test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8);

@@ -204,7 +204,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
   CHECK(lines(text) >= 9);
   for (const std::string& name : told)
     CHECK(fs::exists(tree.path("out/" + fs::path(name).filename().string() + "_spec.png")));
-  // Only sets that were in work may be finished without being reported.
+  // Only sets that were being converted when the run was killed may be finished without a report.
   CHECK(tree.results().size() <= 2 * (told.size() + 2));
   CHECK(tree.texremap(command("mitsuba/as", "")).exit_code == 0);
 }

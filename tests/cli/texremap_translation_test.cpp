@@ -1,4 +1,5 @@
-// Texture sets between models of whole materials: results compared with the generated header, texel by texel.
+// This file tests conversions of texture sets between models of whole materials. Results are compared with
+// the generated header, texel by texel.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -156,7 +157,7 @@ TEST_CASE("texremap translation: results of a folder are read again, also an ind
     for (int x = 0; x < kSide; ++x) largest = std::max(largest, weight.at(x, y, 0));
   CHECK(largest > 0.5f);
 
-  // A file of a pattern is recognised, and takes the place of the map of the set.
+  // A file that a pattern names is recognised, and is used instead of the map of the set.
   const auto other = require_success(session.texremap(
       "convert sets --from blender --to openpbr -o other --json --input coat_weight=*_mine.png"));
   CHECK_FALSE(std::filesystem::exists(session.path("other/car_Coat.png")));

@@ -316,7 +316,7 @@ TEST_CASE("texremap: exporters of exponents have lobes that exist, and whole num
 TEST_CASE("texremap: exponents go to whole materials, and whole numbers need a scale") {
   const Session session;
   // Separate code repeats the short formula of the lobe: alpha^2 = 1.7 / (n + 4), F0 = 6.3 Ks / (n + 2). Kd
-  // is kept, less the F0 that core adds.
+  // is kept, minus the F0 that the core of glTF adds.
   const auto json = nlohmann::json::parse(
       require_success(
           session.texremap(
@@ -344,7 +344,8 @@ TEST_CASE("reports: 11 without a highlight a surface is rough in metallic workfl
     CHECK_THAT(numbers.output, Contains("base_color 0.71"));
     CHECK_THAT(numbers.output, Contains("metallic 0\n"));
   }
-  // The texels have no highlight, a fourth of the ramp, and a dielectric whose width stays.
+  // The first texel has no highlight. The F0 of the second is three quarters of the limit below which the
+  // width rises. The third is a dielectric, which keeps its width.
   const std::vector<float> f0 = {0.0f, 0.00075f, 0.04f};
   write_colors(
       session, "d.exr", [](int, int, int) { return 0.5f; }, OIIO::TypeFloat, 3);

@@ -159,7 +159,7 @@ def check_graphs_in_material_x(generated):
     library = library_first()
     valid, problems = library.validate()
     assert valid, problems
-    # MaterialX' official translation of the same name lacks this output, so the translation found is ours.
+    # MaterialX' official translation of the same name lacks this output. So this checks that the project's own is found.
     assert library.getNodeDef("ND_open_pbr_surface_to_standard_surface").getOutput("coat_affect_color_out")
     for name in re.findall('nodedef name="ND_([^"]*_to_[^"]*)"', (generated / "materialx/remap_translation.mtlx").read_text()):
         source, target = name.split("_to_")

@@ -373,8 +373,9 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   }
 }
 
-TEST_CASE("generated header: compiles alone, twice, beside another and in two files, as C++17, 20 and 23",
-          "[slow]") {
+TEST_CASE(
+    "generated header: compiles on its own, twice, beside another and in two files, as C++17, 20 and 23",
+    "[slow]") {
   const TemporaryFolder folder;
   std::vector<Fit> all;
   std::string includes, tests;

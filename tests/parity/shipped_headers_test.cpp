@@ -151,8 +151,9 @@ TEST_CASE("generated headers: random forms give the bits of their converters", "
     for (const Fit& fit : fits) check_header(headers.at(fit.id), *make_lowered_converter(fit, set), 600);
 }
 
-TEST_CASE("shipped headers: templates wrap those of each kind, without a warning by the flags of engines",
-          "[slow]") {
+TEST_CASE(
+    "shipped headers: templates wrap headers of each kind, without a warning under the flags of engines",
+    "[slow]") {
   for (const std::string compiler : {"g++", "clang++"})
     if (has_program(compiler))
       CHECK(std::system((compiler + " -std=c++17 -fsyntax-only -ffast-math" + kHeaderFlags +

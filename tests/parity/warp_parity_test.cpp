@@ -111,7 +111,7 @@ void check_single_texels(const Entry& entry, const WarpRows& in, const WarpRows&
   CHECK(outside_one == outside);
 }
 
-// With `fuses`, products and sums are fused, so that the last bits differ from the library's.
+// With `fuses`, products and sums are fused, so the last bits differ from the library's.
 void check_headers(const std::string& compiler, const std::string& flags, bool fuses) {
   const TemporaryFolder folder;
   const std::vector<WarpMapFit> fits = probed_models();

@@ -185,7 +185,7 @@ RandomModel random_model(const std::string& kind, std::uint64_t seed) {
   const auto number = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
   Random random(seed * 3 + static_cast<std::uint64_t>(number));
   Domain domain = random_domain(&random);
-  // Most domains do not vanish with specular.
+  // Most of the mappings do not vanish with specular, so their domain must begin above 0.
   domain.specular.min = std::max(domain.specular.min, 0.02 * domain.specular.max);
   return {random_regressed(kind, &random, domain), domain};
 }

@@ -1,6 +1,6 @@
 // This file reads JPEG and WebP by the browser's decoders, through a texture of WebGL. Only this gives stored values, even
-// for files with profiles, gamma or opacity. (A 2-D canvas multiplies opacity in; colors would be converted without
-// `none`.)
+// for files with profiles, gamma or opacity. A 2-D canvas would multiply colors by opacity. Without
+// `colorSpaceConversion: 'none'`, the browser would convert colors.
 
 const textAt = (bytes, at, length) => String.fromCharCode(...bytes.subarray(at, at + length));
 const isJpeg = (bytes) => bytes[0] === 0xff && bytes[1] === 0xd8;

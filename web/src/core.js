@@ -1,4 +1,4 @@
-// A Core is the page's side of the worker: a promise for each call.
+// A Core sends the calls of the page to the worker, and returns a promise for each call.
 export class Core {
   #worker;
   #waiting = new Map();

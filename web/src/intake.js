@@ -18,7 +18,7 @@ async function filesOfEntry(entry, found) {
     return;
   }
   const reader = entry.createReader();
-  for (;;) {  // a call returns only a part
+  for (;;) {  // each call returns only some of the entries
     const entries = await promised((done, fail) => reader.readEntries(done, fail));
     if (entries.length === 0) return;
     for (const inside of entries) await filesOfEntry(inside, found);

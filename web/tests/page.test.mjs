@@ -178,7 +178,7 @@ describe('a folder that is served', { skip }, () => {
       }
       assert.equal(new Set(pictures).size, 3);
       assert.equal(await page.$eval('#wipe', (slider) => slider.value), '54');
-      // Only files of the folder are asked for.
+      // The page requests only files of its own folder.
       assert.ok(visit.requests.every((url) => url.startsWith(server.url) || /^(blob|data):/.test(url)), visit.requests.join(' '));
     }));
 
@@ -207,7 +207,7 @@ describe('a folder that is served', { skip }, () => {
           execFileSync('oiiotool', [path(`specgloss/tin_${name}.png`), '--resize', '64x48', '--attrib', 'Orientation', '6',
             ...(format === 'webp' ? ['--ch', '0,0,0'] : []), '-o', path(`lossy_${format}/a_${role}.${format}`)]);
         await visit.choose('#folder', path(`lossy_${format}`));
-        // The material stays, so stored values do.
+        // Source and target have the same material, so the stored values do not change.
         assert.doesNotMatch(await visit.convert({ from: 'gltf', to: 'gltf', more: '--layout separate --metallic 0' }), /^error/m);
         requireSame(filesOf(await visit.download()), await byProgram(visit, `lossy_${format}`));
       }));

@@ -3,16 +3,17 @@
 // (Veach and Guibas 1995). Each reads the light averaged over its solid angle (Krivanek and Colbert 2008). The viewer
 // averages many frames. SHAPE is the name of a lobe of brdf.glsl, whose text comes before this one.
 uniform sampler2D roughness_map, specular_map, diffuse_map, normal_map, light_map, previous;
-uniform vec2 size, center, jitter;  // of the canvas in pixels; place of its middle on the picture; of the pixel
+// These are the size of the canvas in pixels, the place of its middle on the picture, and a shift within the pixel.
+uniform vec2 size, center, jitter;
 uniform float zoom, turn, specular_range, light_range, light_height;
 uniform bool has_schlick, has_diffuse, has_normals, is_shader_ball;
-uniform int sample_count, frame, frame_count;  // samples of a frame
+uniform int sample_count, frame, frame_count;  // sample_count: samples per pixel in each frame
 out vec4 mean;
 
 const float kCameraDistance = 3.0, kHalfImage = 0.35355339;  // of the scene of remapc (look/scene.hpp)
 const float kPi = 3.14159265358979;
 
-// A PCG hash (Jarzynski and Olano 2020).
+// Returns a PCG hash (Jarzynski and Olano 2020).
 uvec2 hashed(uvec2 v) {
   v = v * 1664525u + 1013904223u;
   v.x += v.y * 1664525u;
@@ -23,7 +24,7 @@ uvec2 hashed(uvec2 v) {
   return v ^ (v >> 16u);
 }
 
-// The shader ball: a ball with a groove, on a foot.
+// Returns the distance to the shader ball: a ball with a groove, on a foot.
 float distance_to_shader_ball(vec3 p) {
   vec3 q = p - vec3(0.0, 0.16, 0.0);
   float ball = length(q) - 0.72;

@@ -27,7 +27,7 @@ void main() {
   color = vec4(shown * mean.a, mean.a);
 }`;
 
-const SAMPLES = 16;  // of a frame
+const SAMPLES = 16;  // samples per pixel in each frame
 const FRAMES = 128;
 // Without a graphics processor a frame takes long. The picture is then drawn at half the resolution, and refined no longer
 // than this.
@@ -53,7 +53,7 @@ function lightLevels({ width, height, rgbe }) {
           let sum = 0;
           let weights = 0;
           for (let j = 0; j < 2; ++j) {
-            const row = 2 * y + j;  // a row weighs as its part of the sphere
+            const row = 2 * y + j;  // the weight of a row is its part of the sphere
             const weight = Math.cos((Math.PI * row) / fine.height) - Math.cos((Math.PI * (row + 1)) / fine.height);
             for (let i = 0; i < 2; ++i) sum += weight * fine.texels[4 * (row * fine.width + 2 * x + i) + c];
             weights += 2 * weight;
@@ -203,7 +203,7 @@ export class Shading {
     this.#bind(program, 'previous', 5, frames[(count + 1) % 2].texture);
     gl.uniform2f(place('size'), gl.canvas.width, gl.canvas.height);
     gl.uniform2f(place('center'), state.center[0], state.center[1]);
-    // Frames look through other places of the pixel, so that edges are smooth.
+    // Each frame looks through another place of the pixel, so that the mean of the frames has smooth edges.
     const jitter = (step) => (state.isStill ? 0 : ((count * step) % 1) - 0.5);
     gl.uniform2f(place('jitter'), jitter(0.7548776662), jitter(0.569840291));
     gl.uniform1f(place('zoom'), state.zoom);

@@ -224,7 +224,7 @@ test('the example of docs/npm.md', async () => {
   const [, example] = /```js\n((?:(?!```)[^])*remapMaterials[^]*?)```/.exec(page);
   const cwd = mkdtempSync(join(folder, 'example-'));
   await io.write(join(cwd, 'paint.glb'), generated(9));
-  const program = join(packageFolder, `example_${process.pid}.mjs`);  // where the package knows itself by its name
+  const program = join(packageFolder, `example_${process.pid}.mjs`);  // a program in this folder can import the package by its name
   writeFileSync(program, example);
   const run = spawnSync(process.execPath, [program], { cwd, encoding: 'utf8' });
   rmSync(program);

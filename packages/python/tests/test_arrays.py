@@ -1,4 +1,4 @@
-"""Arrays in, arrays out: against closed forms, and every layout of memory against every other."""
+"""Tests conversions of arrays against closed forms, and compares every layout of memory with every other."""
 
 import concurrent.futures
 import json
@@ -27,7 +27,10 @@ def maps(shape=(37, 53), dtype=np.float32, seed=3):
 
 
 def compact(form, alpha, specular):
-    """The value of a fit of the kind `compact` within its domain, by the formulas of runtime/converter/compact_form.hpp."""
+    """Returns the results of a fit of the kind `compact` within its domain.
+
+    The formulas are those of runtime/converter/compact_form.hpp.
+    """
 
     def factor(terms, s):
         t = s / (s + form["pole"])
@@ -112,7 +115,7 @@ def test_whole_numbers_are_srgb_unless_told():
 
 
 def layouts(array):
-    """The same values in other memory."""
+    """Returns the same values in different layouts of memory."""
     yield "Fortran", np.asfortranarray(array)
     yield "transposed", np.ascontiguousarray(array.swapaxes(0, 1)).swapaxes(0, 1)
     yield "upside down", array[::-1].copy()[::-1]

@@ -1,4 +1,4 @@
-"""Whatever is given: a result or an exception with a message, never the end of the process."""
+"""Tests that every input gives a result or an exception with a message, and never ends the process."""
 
 import pickle
 

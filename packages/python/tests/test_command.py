@@ -42,7 +42,7 @@ def run(words, inputs, folder):
 
 
 def picture(path):
-    """Values, names of channels, types and attributes of every part of an image."""
+    """Returns values, channel names, types and attributes of every part of an image."""
     parts, config = [], oiio.ImageSpec()
     config.attribute("oiio:UnassociatedAlpha", 1)
     image = oiio.ImageInput.open(str(path), config)
@@ -56,7 +56,10 @@ def picture(path):
 
 
 def chunks(path):
-    """The chunks of a PNG that a picture needs, and those that say how colors are to be read; none of another file."""
+    """Returns the chunks of a PNG that a picture needs, and the chunks that define how colors are read.
+
+    Returns nothing for other files.
+    """
     data, found = path.read_bytes(), {}
     place = 8
     while data.startswith(b"\x89PNG") and place < len(data):
@@ -77,7 +80,7 @@ def assert_same_image(ours, theirs):
 
 
 def glb_parts(data):
-    """The document of a .glb, and its buffer; the document without what follows from the sizes of images."""
+    """Returns the document of a .glb without the numbers that depend on the sizes of images, and its buffer."""
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + length])
     binary = data[20 + length + 8 :]
@@ -106,7 +109,7 @@ def assert_same_glb(ours, theirs, folder):
 
 
 def without_times(text):
-    """The lines of a report, in an order that does not depend on threads."""
+    """Returns the lines of a report without times, in an order that does not depend on threads."""
     text = "\n".join(sorted(text.split("\n")))
     return re.sub(r"[0-9.]+ s\b", "0 s", re.sub(r'"seconds": [0-9.e-]+', '"seconds": 0', text))
 

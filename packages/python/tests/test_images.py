@@ -1,4 +1,4 @@
-"""Images in files and in memory: what is refused before a reader sees it, and what outlives a call."""
+"""Tests images in files and in memory: what is refused before an importer reads it, and what outlives a call."""
 
 import os
 import struct
@@ -28,7 +28,7 @@ def bmp(bits, compression, header=40):
 
 
 def tiff(side):
-    """One strip of no bytes."""
+    """Returns a TIFF file with one strip of no bytes."""
     tags = ((256, side), (257, side), (258, 8), (259, 1), (262, 1), (273, 8), (277, 1), (278, side), (279, 0))
     return b"II*\0\x08\0\0\0" + struct.pack("<H", len(tags)) + b"".join(
         struct.pack("<HHII", tag, 4, 1, value) for tag, value in tags) + bytes(4)

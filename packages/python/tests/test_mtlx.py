@@ -1,4 +1,4 @@
-"""MaterialX documents and glTF files: by MaterialX' own reader and validation, Khronos' validator, and closed forms."""
+"""Tests MaterialX documents and glTF files by MaterialX' own validation, Khronos' validator, and closed forms."""
 
 import json
 import math
@@ -35,7 +35,7 @@ const read = file => new Uint8Array(fs.readFileSync(file));
 
 
 def require_valid_gltf(*files):
-    """Asks Khronos' validator, where node and the validator are installed."""
+    """Runs Khronos' validator, if node and the validator are installed."""
     if shutil.which("node") and subprocess.run(["node", "-e", "require('gltf-validator')"], capture_output=True).returncode == 0:
         done = subprocess.run(["node", "-e", VALIDATE, *map(str, files)], capture_output=True, text=True, check=True)
         assert done.stdout == ""
@@ -62,7 +62,10 @@ def linear(values):
 
 
 def document(path, *surfaces, body=""):
-    """A MaterialX document. A surface is (name, model, inputs); an input is a value, or the output of the graph NG."""
+    """Returns a MaterialX document. A surface is (name, model, inputs).
+
+    An input is a value, or the output of the graph NG.
+    """
     text = ""
     for name, model, inputs in surfaces:
         text += f'<{model} name="{name}_s" type="surfaceshader">'
@@ -107,7 +110,7 @@ def glb(path):
 
 
 def image_of(path, info, folder):
-    """The texels that a texture of a GLB file names."""
+    """Returns the texels of the image that a texture of a GLB file uses."""
     content, binary = glb(path)
     image = content["images"][content["textures"][info["index"]]["source"]]
     view = content["bufferViews"][image["bufferView"]]
@@ -352,7 +355,7 @@ def test_losses_are_named(tmp_path, maps):
 
 
 def triangle(material, **more):
-    """A glTF document with a triangle."""
+    """Returns a glTF document with a triangle."""
     data = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32).tobytes()
     return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "materials": [material],

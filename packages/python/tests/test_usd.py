@@ -1,4 +1,4 @@
-"""UsdPreviewSurface: the layers that are written, by USD's own reader and validators."""
+"""Tests the layers that are written for UsdPreviewSurface, by USD's own reader and validators."""
 
 import hashlib
 import json
@@ -17,7 +17,7 @@ from texremap import materials, usd  # noqa: E402
 
 
 def add_material(stage, name, values, textures=()):
-    """A material with its shader; `textures`: (input, file, output, color space)."""
+    """Adds a material with its shader. `textures` has (input, file, output, color space)."""
     material = UsdShade.Material.Define(stage, f"/World/Looks/{name}")
     shader = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("Surface"))
     shader.CreateIdAttr("UsdPreviewSurface")

@@ -1,4 +1,4 @@
-"""Converts the material parameters of one renderer into those of another, so that both pictures look alike.
+"""Converts material parameters from one renderer to another, so that both pictures look alike.
 
 >>> import numpy as np, texremap
 >>> roughness = np.linspace(0.05, 0.5, 6, dtype=np.float32).reshape(2, 3)
@@ -6,9 +6,9 @@
 >>> result.roughness.shape, result.roughness.dtype, result.counts.out_of_domain
 ((2, 3), dtype('float32'), 0)
 
-:func:`convert` converts once, :class:`Converter` many times; :func:`models` lists what both take as names, :func:`path`
-says how closely one model can look like another, :func:`read_table` reads a table of matches. The command ``texremap``
-converts files (``pip install OpenImageIO``).
+:func:`convert` converts once, and a :class:`Converter` converts many times. :func:`models` lists the names that
+both accept. :func:`path` returns how closely one model can look like another. :func:`read_table` reads a table
+of matches. The command ``texremap`` converts files (``pip install OpenImageIO``).
 """
 
 from ._core import __version__

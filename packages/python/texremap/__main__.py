@@ -1,5 +1,5 @@
-"""The command ``texremap``: the program of the C++ build, over images by OpenImageIO's Python package; and the commands
-``texremap mtlx`` and ``texremap usd``, which only this package has."""
+"""This is the command ``texremap``: the program of the C++ build, with images by OpenImageIO's Python
+package. The commands ``texremap mtlx`` and ``texremap usd`` exist only in this package."""
 
 import importlib
 import sys

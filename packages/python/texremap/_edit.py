@@ -1,7 +1,8 @@
-"""A material of one model as a material of another, for every kind of document.
+"""Converts a material of one model to another model, for every kind of document.
 
-A reader finds a value or a texture for each input. :class:`Edit` tries the translation, to see which results depend on which
-textures. A result is then a value, a texture of the source with a scale and a bias, or a texture that has to be converted.
+A reader finds a value or a texture for each input. :class:`Edit` tries the translation, to see which results
+depend on which textures. A result is then a value, a texture of the source with a scale and a bias, or a
+texture that must be converted.
 """
 
 import os
@@ -32,7 +33,8 @@ def _weight_of(model, name):
 
 
 def losses(model, ignored, sources):
-    """Inputs in ``ignored`` that change the look of a material. ``sources`` has a value or a texture for each input."""
+    """Returns the inputs in ``ignored`` that change the look of a material. ``sources`` has a value or a
+    texture for each input."""
     defaults, lost = materials.MODELS[model], []
     for name in ignored:
         weight, source = _weight_of(model, name), sources.get(name, defaults[name])
@@ -47,7 +49,8 @@ def losses(model, ignored, sources):
 
 
 def _fitted(texture, channels):
-    """A number of a texture of colors is its red; a color of a channel is grey."""
+    """Returns the texture for an input of ``channels`` numbers. If the input is one number, the red of a
+    color texture is used."""
     if channels == 1 and texture.is_color():
         return texture._replace(channels="r", scale=texture.scale[:1], bias=texture.bias[:1])
     return texture
@@ -56,14 +59,15 @@ def _fitted(texture, channels):
 class Edit:
     """The inputs of a new surface.
 
-    ``values`` has those that are constant, ``textures`` those that are a texture of the source with a scale and a bias, ``baked``
-    the others: ``{input: {tile: (array, is_deep)}}``.
+    ``values`` has the constant inputs. ``textures`` has the inputs that are a texture of the source with a
+    scale and a bias. ``baked`` has all other inputs: ``{input: {tile: (array, is_deep)}}``.
     """
 
     def __init__(self, model, sources, makes, translate, target=None):
-        """``sources`` has a tuple of numbers or a :class:`Texture` for inputs of ``model``, ``makes`` the inputs of the result.
+        """Computes the inputs ``makes`` of the result from ``sources``.
 
-        With the model ``target`` of the result, lobes that do not show have the defaults of the model.
+        ``sources`` has a tuple of numbers or a :class:`Texture` for inputs of ``model``. If the model
+        ``target`` of the result is given, lobes that are not visible have the defaults of this model.
         """
         self._defaults, self._makes, self._translate = materials.MODELS[model], makes, translate
         self.values, self.textures, self.baked = {}, {}, {}
@@ -113,7 +117,8 @@ class Edit:
         return results, moves
 
     def _connect(self, name, source, results):
-        """Whether an output is a texture of the source with a scale and a bias, which is then kept."""
+        """Keeps the source texture for an output that differs from it only by a scale and a bias. Returns
+        whether this was possible."""
         texture, given, made = self._given[source], self._probed[source], results[name]
         if given.shape[1] != made.shape[1]:
             return False
@@ -149,7 +154,8 @@ class Edit:
                 del self.baked[name]
 
     def settle(self, name, largest=False):
-        """Makes a value of an input that has no texture in the target: the mean, or the largest. Returns whether it varied."""
+        """Makes a single value of an input that has no texture in the target: the mean, or the largest value.
+        Returns whether it varied."""
         if name in self.values:
             return False
         if name in self.baked:
@@ -162,11 +168,12 @@ class Edit:
         return True
 
     def wrap_and_place(self):
-        """How the converted textures lie on the surface."""
+        """Returns how the converted textures are wrapped, and where they lie on the surface."""
         return self._model.wrap, self._model.place
 
     def put_into_files(self, file_of):
-        """Connects the converted textures as PNG files. ``file_of`` gives the path for an input; ``write_files`` writes them."""
+        """Connects the converted textures as PNG files. ``file_of`` returns the path for an input.
+        ``write_files`` writes the files."""
         for name, tiles in self.baked.items():
             count = next(iter(tiles.values()))[0].shape[-1]
             scale, bias = self._fit_into_file(name)
@@ -185,7 +192,7 @@ class Edit:
         return high - low, low
 
     def files(self):
-        """The files of the converted textures, with their texels."""
+        """Returns for each converted texture its path, its texels, and whether it has more than 8 bits."""
         return [(self.textures[name].path.replace(TILE, tile), values, deep)
                 for name, tiles in self.baked.items() for tile, (values, deep) in tiles.items()]
 

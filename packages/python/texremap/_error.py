@@ -1,5 +1,5 @@
 class Error(ValueError):
-    """What the library refuses: a message of one line, with the place, what is wrong and what to do.
+    """An error with a message of one line: the place, what is wrong, and what to do.
 
     ``kind`` is ``"usage"`` (names or arguments that do not exist or do not fit together), ``"input"`` (a file or value
     that cannot be used), ``"output"`` (a result that cannot be written), ``"numeric"`` (a converter that fails its

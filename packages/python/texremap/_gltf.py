@@ -73,7 +73,7 @@ EXTENSIONS = {STRENGTH, *NEEDED, "KHR_materials_specular", "KHR_materials_ior"}
 
 
 def extension_of(data):
-    """The ending of an image that glTF holds, by its first bytes, or an empty word."""
+    """Returns the file extension of an image that glTF allows, by its first bytes, or an empty text."""
     return next((ending for signature, ending in _SIGNATURES if data.startswith(signature)), "")
 
 
@@ -110,7 +110,7 @@ class GltfReader:
     """A glTF or GLB file."""
 
     def __init__(self, path, folder):
-        """``folder`` is where images that lie in the file become files of their own."""
+        """Opens the file at ``path``. Images that are embedded in it are extracted to ``folder``."""
         self.path, self.folder = path, folder
         self.image_of_path, self._buffers, self.files = {}, {}, set()
         try:
@@ -178,7 +178,8 @@ class GltfReader:
         return name if isinstance(name, str) and name else f"materials[{index}]"
 
     def reason_to_leave(self, index, read=None):
-        """Why a material is not converted, or an empty word. ``read`` has the extensions that the importer of the result reads."""
+        """Returns why a material is not converted, or an empty text. ``read`` has the extensions that the
+        importer of the result reads."""
         extensions = _object(self.materials[index], "extensions", "material")
         if "KHR_materials_unlit" in extensions:
             return "it is unlit"
@@ -279,7 +280,8 @@ class GltfReader:
         return Place(primvar, scale, rotation, tuple(round(number, 9) + 0.0 for number in translation))
 
     def _image(self, texture, place):
-        """The file as this document names it, and its path."""
+        """Returns the image file of a texture, as this document names it, and its path. Extracts embedded
+        images."""
         source = _object(_object(texture, "extensions", place), "EXT_texture_webp", place).get("source", texture.get("source"))
         if source is None:
             fail(place, "its texture has no PNG, JPEG or WebP image")
@@ -305,7 +307,8 @@ class GltfReader:
         return path, path
 
     def beside(self, uri, place):
-        """The path of a file that this document names, which must lie in its folder."""
+        """Returns the path of a file that this document names. The file must lie in the folder of the
+        document."""
         root = os.path.realpath(os.path.dirname(os.path.abspath(self.path)))
         name = unquote(uri)
         if re.match(r"[a-zA-Z][a-zA-Z0-9+.-]*:|/|\\", name) or "\0" in name:

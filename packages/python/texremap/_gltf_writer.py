@@ -31,7 +31,8 @@ def _near(values, others):
 
 
 def _header(path):
-    """The ending of an image by its content, and for PNG whether it is grey and whether it has opacity."""
+    """Returns the extension of an image by its content, and for PNG whether it is grey and whether it has
+    opacity."""
     with open(path, "rb") as file:
         head = file.read(26)
     ending = extension_of(head)
@@ -43,7 +44,10 @@ class GltfWriter:
     """A new glTF or GLB file of materials, or a copy of one with other materials."""
 
     def __init__(self, output, allowed=frozenset({*EXTENSIONS, TRANSFORM}), base=None):
-        """``allowed`` has the extensions that the result may use, ``base`` is the :class:`GltfReader` whose other contents stay."""
+        """Begins a document. ``allowed`` has the extensions that the result may use.
+
+        If ``base`` is given, the other contents of this :class:`GltfReader` are kept.
+        """
         self._output, self._allowed, self._base = output, allowed, base
         self._is_binary = output.lower().endswith(".glb")
         self._parent = os.path.dirname(os.path.abspath(output))
@@ -87,14 +91,14 @@ class GltfWriter:
         return begin
 
     def _add(self, name, value):
-        """Adds an object to a list of the document, once. Returns its index."""
+        """Adds an object to a list of the document, unless an equal object is in it. Returns its index."""
         values = self.json.setdefault(name, [])
         if value not in values:
             values.append(value)
         return values.index(value)
 
     def _image_of(self, path=None, data=None, name=""):
-        """The object of an image in a file, or of new bytes."""
+        """Returns the image object for the file ``path``, or for the new image ``data``."""
         if self._is_binary:
             if data is None:
                 with open(path, "rb") as file:
@@ -124,7 +128,7 @@ class GltfWriter:
         return self._base is not None and path.startswith(self._base.folder + os.sep)
 
     def _image(self, key, **given):
-        """The index of an image, which is added once."""
+        """Returns the index of the image with this key. Adds the image at the first call."""
         if key not in self._made and self._base and key in self._base.image_of_path:
             self._made[key] = self._base.image_of_path[key]
         elif key not in self._made:
@@ -133,7 +137,8 @@ class GltfWriter:
         return self._made[key]
 
     def add(self, name, edit, normals, index):
-        """Adds a material, or replaces one of the base. Returns names of new textures, and inputs that are lost."""
+        """Adds a material, or replaces one of the base. Returns the names of new textures, and the inputs
+        that are lost."""
         self._material, self._extensions = {"name": name}, {}
         self._textures, self._losses, self._name = [], [], re.sub(r"[^\w-]+", "_", name)[:80]
         for one in (*FACTORS, "emissive_strength", "alpha_mode", "alpha_cutoff"):
@@ -170,7 +175,7 @@ class GltfWriter:
         self._losses.append(words)
 
     def _is_shown(self, holder, edit):
-        """Whether a part of a material shows, and may be written."""
+        """Returns whether a part of a material may be written and has a visible effect."""
         if holder in ("", PBR):
             return True
         needed = NEEDED.get(holder)
@@ -232,7 +237,8 @@ class GltfWriter:
             self._put("", "alphaCutoff", _rounded(edit.values["alpha_cutoff"]))
 
     def _connected(self, slot, edit, textured, factors):
-        """A texture as it lies in a file, and its biases; or None if a new one has to be packed. Adds to ``factors``."""
+        """Returns the texture info for an existing file and its biases, or None if a new texture must be
+        packed. Adds to ``factors``."""
         textures = {name: edit.textures[name] for name in textured if name not in edit.baked}
         first = next(iter(textures.values()), None)
         if len(textures) < len(textured) or len({(t.path, t.wrap, t.place) for t in textures.values()}) > 1:
@@ -259,7 +265,7 @@ class GltfWriter:
         return self._info(self._image(os.path.abspath(first.path), path=first.path), first.wrap, first.place, slot.name), biases
 
     def _packed(self, slot, edit, textured, factors):
-        """A new texture for a slot, and its biases. Adds to ``factors``."""
+        """Packs a new texture for a slot. Returns its texture info and its biases. Adds to ``factors``."""
         arrays, places, deep, wrap, biases = {}, set(), False, (None, None), {}
         for name in textured:
             if name in edit.baked:
@@ -313,7 +319,7 @@ class GltfWriter:
         self._put(holder, key, info)
 
     def _info(self, image, wrap, place, name):
-        """The object that names a texture in a material."""
+        """Returns the texture info by which a material refers to an image."""
         if "black" in wrap:
             self._lost(f"{name}: black around its texture")
         codes = {f"wrap{axis}": _CODE_OF_WRAP.get("clamp" if mode == "black" else mode, 10497) for axis, mode in zip("ST", wrap)}
@@ -339,7 +345,7 @@ class GltfWriter:
         return info
 
     def _finish(self):
-        """The extensions that are used, and the buffer."""
+        """Lists the extensions that are used, and describes the buffer."""
         used, rest = set(), [self.json]
         while rest:
             value = rest.pop()
@@ -364,7 +370,7 @@ class GltfWriter:
                 self.json["buffers"][0]["uri"] = quote(f"{self._stem}.bin")
 
     def save(self, force):
-        """Writes the document, after all files that it names."""
+        """Writes the document, after all files that it refers to."""
         self._finish()
         if self._length and not self._is_binary:
             self._files[os.path.join(self._parent, f"{self._stem}.bin")] = b"".join(self._pieces)

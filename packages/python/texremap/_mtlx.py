@@ -26,7 +26,8 @@ _TYPES = {"geometry_thin_walled": "boolean", "thin_walled": "boolean", "alpha_mo
 
 
 def _end_of(given, name):
-    """The element that has the value of an input, or the node and the output that it is connected to."""
+    """Returns the element that holds the value of an input, or the node and the output that the input is
+    connected to."""
     for _ in range(MOST_NODES):
         if given.getInterfaceName():
             inner = given.getInterfaceInput() if isinstance(given, mx.Input) else None
@@ -46,7 +47,8 @@ def _end_of(given, name):
 
 
 def _numbers_of(given, name):
-    """The value of an input as a tuple of floats, colors in linear Rec. 709; or None if it has none."""
+    """Returns the value of an input as a tuple of floats, with colors in linear Rec. 709. Returns None if it
+    has no value."""
     if not given.getValueString():
         return None
     value = given.getValue()
@@ -269,7 +271,7 @@ class MtlxWriter:
         return os.path.relpath(path, self._parent).replace(os.sep, "/")
 
     def add(self, name, edit, normals, _):
-        """Adds a material. Returns the files of new textures, and inputs that are lost."""
+        """Adds a material. Returns the files of new textures, and the inputs that are lost."""
         lost = [f"{one}: has no texture, and becomes a constant" for one in _TYPES
                 if one in materials.MODELS[self._model] and edit.settle(one, largest=True)]
         unique = self._document.createValidChildName(name)
@@ -308,7 +310,7 @@ class MtlxWriter:
         return tuple(path if os.path.isabs(self._output) else os.path.relpath(path) for path, *_ in edit.files()), tuple(lost)
 
     def save(self, _):
-        """Writes the document, after all files that it names."""
+        """Writes the document, after all files that it refers to."""
         for look in self._looks:
             copy = self._document.addLook(look.getName())
             for given in look.getMaterialAssigns():

@@ -1,6 +1,7 @@
-"""Networks of nodes of MaterialX and USD: which texture feeds an input, and nodes that feed one.
+"""Networks of nodes in MaterialX and USD.
 
-The nodes belong to a MaterialX document or to a USD stage. Both hold textures with a scale and a bias for each channel.
+This module finds the texture that feeds an input, and makes nodes that feed one. The nodes belong to a
+MaterialX document or to a USD stage. Both hold textures with a scale and a bias for each channel.
 """
 
 import math
@@ -16,41 +17,45 @@ _INDEX_OF_OUTPUT = {f"out{letter}": index for letters in ("rgba", "xyzw") for in
 
 
 class Procedural(Error):
-    """A connection that is not a texture with a scale and a bias."""
+    """Is raised for a connection that is not a texture with a scale and a bias."""
 
     def __init__(self, message):
         super().__init__(message, "input")
 
     def words_about(self, name):
-        """The message with the input in front, once."""
+        """Returns the message, which begins with the name of the input."""
         return f"{name}: {str(self).removeprefix(name).lstrip(': ')}"
 
 
 class Node:
-    """A node of a document. ``kind`` is its category (``"image"``), ``type`` the type in its name, ``name`` a word for messages."""
+    """A node of a document.
+
+    ``kind`` is its category (``"image"``). ``type`` is the type in its name. ``name`` is for messages.
+    """
 
     kind: str
     type: str
     name: str
 
     def link(self, name: str) -> Optional[Tuple["Node", str]]:
-        """The node and the output that an input is connected to."""
+        """Returns the node and the output that an input is connected to."""
         raise NotImplementedError
 
     def numbers(self, name: str, otherwise=None):
-        """The value of an input as a tuple of floats."""
+        """Returns the value of an input as a tuple of floats."""
         raise NotImplementedError
 
     def word(self, name: str, otherwise=None) -> Optional[str]:
         raise NotImplementedError
 
     def file(self, of: str) -> Tuple[str, str, str]:
-        """The file as the document names it, its path, and its color space."""
+        """Returns the file as the document names it, its path, and its color space."""
         raise NotImplementedError
 
 
 def texture_of(node, output, name, most=MOST_NODES) -> Union[Texture, Tuple[float, ...]]:
-    """The texture or the constant that an output of a node gives. Raises :class:`Procedural` for others."""
+    """Returns the texture or the constant that an output of a node gives. Raises :class:`Procedural` for
+    others."""
     if most == 0:
         raise Error(f"{name}: its nodes form a circle", "input")
     kind = node.kind
@@ -94,7 +99,7 @@ def _input_texture(node, name, of, most):
 
 
 def _affine(node, output, name, most):
-    """A texture under a multiplication, an addition or a subtraction with a constant."""
+    """Returns the texture that a node multiplies by a constant, or to which it adds or subtracts one."""
     sides = []
     for side in ("in1", "in2"):
         link = node.link(side)
@@ -184,7 +189,8 @@ def _plain_place(reader, name, of):
 
 
 def _gltf_place(node, place, name):
-    """The nodes of glTF images have the transform of KHR_texture_transform, over coordinates whose v grows upwards."""
+    """Returns the place of a glTF image node. It has the transform of KHR_texture_transform, but v grows
+    upwards."""
     offset = node.numbers("offset", (0.0, 0.0))
     order = 0 if node.kind == "gltf_colorimage" else node.numbers("operationorder", (1,))[0]
     moved = _pivoted(place.primvar, node.numbers("scale", (1.0, 1.0)), node.numbers("rotate", (0.0,))[0], (offset[0], -offset[1]),
@@ -195,13 +201,14 @@ def _gltf_place(node, place, name):
 
 
 def turned(degrees, point):
-    """The point after a turn from u to v."""
+    """Returns the point after a rotation from u to v."""
     s, c = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
     return c * point[0] - s * point[1], s * point[0] + c * point[1]
 
 
 def _pivoted(primvar, scale, rotation, offset, pivot, order, name):
-    """A scale and a rotation about a pivot, then an offset; with ``order`` 1 the other way round."""
+    """Returns the place after a scale and a rotation about a pivot, then an offset. With ``order`` 1, the
+    order is reversed."""
     def scaled(point):
         return scale[0] * point[0], scale[1] * point[1]
 
@@ -221,7 +228,8 @@ class MaterialXNodes:
     """Makes nodes of MaterialX 1.39 that feed textures into a surface. A document or a stage makes the nodes."""
 
     def node(self, key, name, kind, type, variant=None):
-        """A node, or the one that was made for this key. Returns it, and whether it is new. ``variant``: the type in its name."""
+        """Returns the node for this key, and whether it is new. ``variant`` is the type in the name of the
+        node."""
         raise NotImplementedError
 
     def output(self, node, type):
@@ -252,7 +260,7 @@ class MaterialXNodes:
         return self.output(node, type)
 
     def joined(self, name, operation, type, source, value):
-        """The output of a node that multiplies or adds a constant."""
+        """Returns the output of a node that multiplies by a constant or adds a constant."""
         node, _ = self.node((name, operation), f"texremap_{name}_{operation}", operation, type)
         self.connect(node, "in1", type, source)
         self.set(node, "in2", type, value)
@@ -277,7 +285,7 @@ class MaterialXNodes:
         return self.scaled(name, "float", output, texture.scale, texture.bias)
 
     def normal(self, name, texture):
-        """A normal map has values from -1 to 1; the node of MaterialX takes 0 to 1."""
+        """Returns the output of a normal map node. Normals are -1 to 1 here, but the node needs 0 to 1."""
         image = self.image(texture._replace(space="raw"), "vector3")
         scale, bias = [s / 2 for s in texture.scale], [(b + 1) / 2 for b in texture.bias]
         node, _ = self.node(name, f"texremap_{name}", "normalmap", "vector3", "float")

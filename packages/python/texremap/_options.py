@@ -1,4 +1,5 @@
-"""The options of the commands that only this package has. Help and manual pages show them where their libraries are not installed."""
+"""The options of the commands that only this package has. They are separate, because help and manual pages
+also show them on machines without the libraries of these commands."""
 
 import argparse
 

@@ -22,7 +22,7 @@ class Surface(NamedTuple):
 
 
 class MaterialReport(NamedTuple):
-    """What became of a material."""
+    """The result of the conversion of one material."""
 
     path: str
     state: str
@@ -35,7 +35,7 @@ class MaterialReport(NamedTuple):
 
 
 def require_output(source, output, endings, force):
-    """Raises if ``output`` has another ending, is the input, or exists."""
+    """Raises :class:`Error` if ``output`` has an unsuitable extension, is the input, or exists."""
     if os.path.splitext(output)[1].lower() not in endings:
         raise Error(f"{output}: a result is {', '.join(endings[:-1])} or {endings[-1]}", "output")
     if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):

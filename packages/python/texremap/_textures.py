@@ -17,7 +17,7 @@ _PACKED = ".usdz["  # in the path of a texture inside of a package
 
 
 class Place(NamedTuple):
-    """Where a texture lies on a surface."""
+    """The position of a texture on a surface."""
 
     primvar: str = "st"
     scale: Tuple[float, float] = (1.0, 1.0)
@@ -41,7 +41,7 @@ class Texture(NamedTuple):
         return self.channels == "rgb"
 
     def scaled(self, scale, bias):
-        """The texture of ``scale * value + bias``."""
+        """Returns the texture with the value ``scale * value + bias``."""
         return self._replace(scale=tuple(float(s * k) for s, k in zip(self.scale, scale)),
                              bias=tuple(float(b * k + c) for b, k, c in zip(self.bias, scale, bias)))
 
@@ -51,7 +51,8 @@ class Texture(NamedTuple):
 
 
 def tiles_of(path, name):
-    """The words that stand for ``<UDIM>`` on this disk, or one empty word."""
+    """Returns the numbers that replace ``<UDIM>`` in the files that exist, or one empty text for a path
+    without it."""
     if TILE not in path:
         if not os.path.isfile(path.split("[", 1)[0] if _PACKED in path else path):
             raise Error(f"{name}: {path}: file not found", "input")
@@ -75,7 +76,7 @@ def _srgb(values):
 
 
 def read(texture, tile):
-    """Linear values of shape (height, width, 1 or 3), and whether the file has more than 8 bits."""
+    """Returns linear values of shape (height, width, 1 or 3), and whether the file has more than 8 bits."""
     from .images import MOST_TEXELS, Images
 
     path = texture.path.replace(TILE, tile)
@@ -144,7 +145,7 @@ def baked(translate, constants, textures, wanted):
 
 
 def png_of(values, is_color, deep):
-    """The bytes of a PNG: colors in sRGB, 16 bits if a source has more than 8."""
+    """Returns the bytes of a PNG. Colors are in sRGB. The PNG has 16 bits if a source has more than 8."""
     from .images import Images
 
     if is_color:

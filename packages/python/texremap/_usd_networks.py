@@ -16,7 +16,7 @@ _TYPE_NAMES = {"float": _TYPES.Float, "vector2": _TYPES.Float2, "vector3": _TYPE
 
 
 def value_of(attribute):
-    """The value of an attribute as a tuple of floats, or None."""
+    """Returns the value of an attribute as a tuple of floats, or None."""
     if attribute.GetNumTimeSamples() > 1:
         raise Error(f"{attribute.GetName()} changes over time", "input")
     value = attribute.Get()
@@ -24,7 +24,8 @@ def value_of(attribute):
 
 
 def _producer(shader, name):
-    """The attribute that gives an input its value: of the input, of a node graph or material around it, or a node's output."""
+    """Returns the attribute that gives an input its value. It belongs to the input, to a node graph or
+    material around it, or to the output of a node."""
     given = shader.GetInput(name)
     if not given:
         return None
@@ -73,7 +74,8 @@ def _linked(attribute):
 
 
 def source_of(shader, name, default):
-    """The value of an input as a tuple, or its :class:`Texture`. Raises :class:`Procedural` for other connections."""
+    """Returns the value of an input as a tuple, or its :class:`Texture`. Raises :class:`Procedural` for other
+    connections."""
     attribute = _producer(shader, name)
     if attribute is None:
         return default
@@ -84,14 +86,14 @@ def source_of(shader, name, default):
 
 
 class _Nodes:
-    """Makes nodes below a material, each once."""
+    """Makes nodes below a material. For each key, it makes only one node."""
 
     def __init__(self, stage, material):
         self.stage, self.material, self.made = stage, material, {}
         self.layer = os.path.dirname(stage.GetEditTarget().GetLayer().realPath)
 
     def shader(self, key, name, identity):
-        """A new shader, or the one that was made for this key. Returns it, and whether it is new."""
+        """Returns the shader for this key, and whether it is new."""
         if key in self.made:
             return self.made[key], False
         path, number = self.material.GetPath().AppendChild(name), 1
@@ -104,12 +106,12 @@ class _Nodes:
         return shader, True
 
     def asset(self, texture):
-        """The file as the new layer finds it."""
+        """Returns the path of the file relative to the new layer."""
         file = texture.file if not os.path.isabs(texture.path) else os.path.relpath(texture.path, self.layer).replace(os.sep, "/")
         return Sdf.AssetPath(file if file.startswith(("../", "/")) or ":" in file else "./" + file.removeprefix("./"))
 
     def place(self, place):
-        """The output of the nodes that give a texture its coordinates."""
+        """Returns the output of the nodes that give a texture its coordinates."""
         name, kind, word = self._READER
         reader, is_new = self.shader(("reader", place.primvar), name, kind)
         if is_new:

@@ -11,7 +11,7 @@ from . import _core
 from ._error import Error
 
 _COLORS = {"specular", "diffuse", "base_color", "residual"}
-_SURELY_NO_FRACTION = 2  # from here on a value is not a fraction
+_SURELY_NO_FRACTION = 2  # values from 2 on cannot be fractions
 _LOOKED_AT = 64  # values of each axis of an array
 _MEASURES = ("residual", "metallic_uncertainty", "issues")
 
@@ -21,7 +21,7 @@ Color = Union[npt.NDArray[Any], float, Tuple[float, float, float], List[float]]
 
 
 class Model(NamedTuple):
-    """A name that ``source`` and ``target`` take."""
+    """A model that ``source`` and ``target`` can name."""
 
     name: str
     kind: str
@@ -49,7 +49,7 @@ class Path(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """How many texels were unusual; each counts once in every field that applies."""
+    """The numbers of unusual texels. A texel counts once in every field that applies."""
 
     texels: int = 0
     out_of_domain: int = 0
@@ -64,7 +64,7 @@ class Counts(NamedTuple):
 
 
 class Material(Dict[str, npt.NDArray[Any]]):
-    """Results by the names of parameters, also as attributes, and their ``counts``."""
+    """The results by the names of parameters, which are also attributes, and their ``counts``."""
 
     counts: Counts
 
@@ -76,7 +76,7 @@ class Material(Dict[str, npt.NDArray[Any]]):
 
 
 def models() -> List[Model]:
-    """All names that ``source`` and ``target`` take, as a list of :class:`Model`.
+    """Returns all names that ``source`` and ``target`` accept, as a list of :class:`Model`.
 
     >>> [model.name for model in models() if model.kind == "metallic"][:2]
     ['gltf', 'cycles-5/principled']
@@ -85,7 +85,9 @@ def models() -> List[Model]:
 
 
 def path(source: str, target: str, **options: Any) -> Path:
-    """How closely ``target`` can look like ``source``: a :class:`Path`. ``options`` as of :class:`Converter`.
+    """Returns how closely ``target`` can look like ``source``, as a :class:`Path`.
+
+    ``options`` are the options of :class:`Converter`.
 
     >>> path("mitsuba/ward", "mitsuba/as").steps
     ('mitsuba_ward_to_mitsuba_as',)
@@ -94,18 +96,22 @@ def path(source: str, target: str, **options: Any) -> Path:
 
 
 class Converter:
-    """Converts arrays of ``source`` into arrays of ``target``; see :func:`convert` for the arrays.
+    """Converts arrays of ``source`` into arrays of ``target``. :func:`convert` describes the arrays.
 
-    source, target: names of :func:`models`; as target also a renderer (``"cycles-5"``), which stands for the closest of
-        its models. ``"specular:mitsuba/ward"`` and ``"metallic:mitsuba/ward"`` are layers over a BRDF model.
-    via: models that the path visits, in this order.
-    diffuse_convention: ``"plain"`` or ``"scaled"`` (glTF: times 1 - max(specular)), where a model leaves it open.
-    dielectric_f0: F0 of dielectrics in metallic workflows, 0 to 0.9; by default the model's own (0.04 for glTF).
-    metallic_bias: of the projection to metallic, 0 to 1; 1e-6 for clean maps, 1e-5 for noisy ones.
-    converters: a file that ``remapc emit --all`` wrote, a fit, or a folder of fits, in place of the shipped ones.
-    instructions: ``"baseline"``, ``"avx2"`` or ``"avx512"``; every set gives the same bits.
+    source, target: names from :func:`models`. The target can also be a renderer (``"cycles-5"``), which means
+        the closest of its models. ``"specular:mitsuba/ward"`` and ``"metallic:mitsuba/ward"`` are workflows
+        around a BRDF model.
+    via: models that the path must visit, in this order.
+    diffuse_convention: ``"plain"`` or ``"scaled"`` (as in glTF: times 1 - max(specular)), if the model does not
+        define it.
+    dielectric_f0: F0 of dielectrics in metallic workflows, 0 to 0.9 (default: the model's own, 0.04 for glTF).
+    metallic_bias: how strongly a conversion to metallic prefers 0 and 1. It is 0 to 1: 1e-6 for clean maps, 1e-5
+        for noisy maps.
+    converters: a file that ``remapc emit --all`` wrote, a fit, or a folder of fits. They replace the shipped
+        converters.
+    instructions: ``"baseline"``, ``"avx2"`` or ``"avx512"``. The results do not depend on it.
 
-    A converter may be used by many threads at a time. Raises :class:`Error`.
+    Many threads may use a converter at a time. Raises :class:`Error`.
     """
 
     def __init__(self, source: str, target: str, *, via: Optional[Iterable[str]] = None,
@@ -121,9 +127,9 @@ class Converter:
 
     @classmethod
     def load(cls, file: Union[str, "os.PathLike[str]"], *, source_workflow: Optional[str] = None) -> "Converter":
-        """The converter of a fit or a warp in JSON, as ``remapc fit`` and ``remapc warp`` write them.
+        """Returns the converter of a fit or a warp in JSON, as ``remapc fit`` and ``remapc warp`` write them.
 
-        A warp takes the specular workflow, or the metallic one if ``source_workflow`` says so.
+        A warp reads the specular workflow, or the metallic workflow if ``source_workflow`` is ``"metallic"``.
         """
         converter = cls.__new__(cls)
         converter._hold(_core.Conversion.load(os.fspath(file), source_workflow))
@@ -148,52 +154,52 @@ class Converter:
 
     @property
     def sources(self) -> Tuple[str, ...]:
-        """The parameters that it takes."""
+        """The parameters that the converter reads."""
         return tuple(self._about["sources"])
 
     @property
     def targets(self) -> Tuple[str, ...]:
-        """The parameters that it can make."""
+        """The parameters that the converter can make."""
         return tuple(self._about["targets"])
 
     @property
     def roughness_encoding(self) -> str:
-        """What the source's roughness is."""
+        """The encoding of the source's roughness."""
         return self._about["roughness_encoding"]
 
     @property
     def output_encoding(self) -> str:
-        """What the target's roughness is."""
+        """The encoding of the target's roughness."""
         return self._about["output_encoding"]
 
     @property
     def roughness_domain(self) -> Tuple[float, float]:
-        """The covered range of the BRDF's own roughness parameter."""
+        """The measured range of the BRDF's own roughness parameter."""
         return self._about["roughness_domain"]
 
     @property
     def specular_domain(self) -> Tuple[float, float]:
-        """The covered range of its specular."""
+        """The measured range of the BRDF's specular."""
         return self._about["specular_domain"]
 
     @property
     def instructions(self) -> str:
-        """The instruction set that it runs on."""
+        """The instruction set that the converter uses."""
         return self._about["instructions"]
 
     @property
     def notes(self) -> Tuple[str, ...]:
-        """What the given names mean."""
+        """The meanings of the given names."""
         return tuple(self._about["notes"])
 
     @property
     def assumptions(self) -> Tuple[str, ...]:
-        """What had to be assumed."""
+        """The assumptions that the converter makes."""
         return tuple(self._about["assumptions"])
 
     @property
     def path(self) -> Path:
-        """The :class:`Path` of its BRDF."""
+        """The :class:`Path` of the BRDF."""
         about = self._about
         return Path(tuple(about["models"]), tuple(about["steps"]), about["expected_error"], about["picture_difference"],
                     about["closer"])
@@ -205,7 +211,8 @@ class Converter:
                 transfer: Union[str, Mapping[str, str], None] = None, dtype: Optional[npt.DTypeLike] = None,
                 out: Optional[Mapping[str, npt.NDArray[Any]]] = None, measures: Iterable[str] = (), outside: bool = False,
                 bad_texels: str = "keep", dither: bool = False, threads: int = 1) -> Material:
-        """As :func:`convert`, without the names of the models."""
+        """Converts the maps of one material from ``source`` to ``target``. The arguments and the result are
+        those of :func:`convert`."""
         given = {"roughness": roughness, "specular": specular, "diffuse": diffuse, "base_color": base_color,
                  "metallic": metallic, "metal_mask": metal_mask}
         source_encoding = self._width_encoding(given, glossiness, roughness_encoding)
@@ -229,7 +236,8 @@ class Converter:
         return material
 
     def _width_encoding(self, given, glossiness, encoding):
-        """The convention of the source's width. ``roughness`` means roughness even for a model that takes glossiness."""
+        """Returns the encoding of the source's width. ``roughness`` means roughness even if the model uses
+        glossiness."""
         if glossiness is not None:
             if given["roughness"] is not None or encoding is not None:
                 raise Error("glossiness cannot be given with roughness or roughness_encoding")
@@ -249,7 +257,7 @@ class Converter:
                 raise Error(f"{name} is required by {self.source} (an array, a number, or three)")
 
     def _require_fractions(self, maps, width_encoding):
-        """Refuses what can only be per cent or 0 to 255; exponents and wide ranges of specular are neither."""
+        """Refuses values that can only be per cent or 0 to 255. Skips exponents and wide ranges of specular."""
         for name in (*maps.constants, *maps.arrays):
             is_exponent = name == "roughness" and width_encoding == "exponent"
             is_wide = name == "specular" and self.specular_domain[1] > 1
@@ -262,7 +270,7 @@ class Converter:
                 _require_fraction_array(shown, maps.arrays[name])
 
     def _made(self, maps, measures):
-        """Each result with its number of channels."""
+        """Returns the number of channels of each result."""
         for name in measures:
             if name not in _MEASURES or name not in self.targets:
                 known = [measure for measure in _MEASURES if measure in self.targets] or ["none"]
@@ -280,29 +288,33 @@ def convert(*, source: str, target: str, roughness: Optional[Map] = None, glossi
             out: Optional[Mapping[str, npt.NDArray[Any]]] = None, measures: Iterable[str] = (), outside: bool = False,
             bad_texels: str = "keep", dither: bool = False, threads: int = 1,
             **options: Any) -> Material:
-    """Converts the maps of one material; returns a :class:`Material` with an array for each parameter of the target.
+    """Converts the maps of one material. Returns a :class:`Material` with an array for each target parameter.
 
-    source, target: names of :func:`models`. ``options``: those of :class:`Converter`.
+    source, target: names from :func:`models`. ``options`` are the options of :class:`Converter`.
     roughness, metallic, metal_mask: arrays of any shape S, or a number.
-    glossiness: in place of roughness, 1 - roughness.
-    specular, diffuse, base_color: arrays of shape S (grey) or S + (3,) (RGB), a number, or three in a tuple or list.
-        S is the shape of the first parameter without colors that is an array; without one, a last axis of 3 is RGB.
-    roughness_encoding, output_encoding: what roughness is, and what the result shall be: ``"alpha"``, ``"roughness"``
-        (its square root), ``"glossiness"``, ``"exponent"``, ``"squared"``; by default the model's own, see
-        :func:`models`.
-    transfer: ``"linear"`` or ``"srgb"``, of all colors, or a dict by parameter. By default whole numbers are sRGB and
-        floats linear, as in image files; other parameters are data, which no curve applies to.
-    dtype: of the results: whole numbers of 8 to 32 bits (0 to 1 as 0 to the largest), float16, float32, float64; by
-        default that of the source's array of the same name, else of its first array, else float32.
-    out: arrays to write into, by the names of the results, of shape S or S + (3,); they may be the sources themselves.
-    measures: of a metallic target also ``"residual"``, ``"metallic_uncertainty"``, ``"issues"``.
-    outside: also a Boolean array ``outside`` of the texels outside of the converter's domain.
-    bad_texels: NaN, infinite and negative values: ``"keep"``, ``"clamp"`` to the domain, or ``"fail"``.
-    dither: adds noise of half a step to 8-bit results, the same in every run.
-    threads: 0 for one per core. The results do not depend on it.
+    glossiness: 1 - roughness. It can be given instead of roughness.
+    specular, diffuse, base_color: arrays of shape S (grey) or S + (3,) (RGB), a number, or three numbers in a
+        tuple or list. S is the shape of the first array of a parameter that is not a color. If there is no such
+        array, a last axis of 3 is RGB.
+    roughness_encoding, output_encoding: the meaning of roughness in the source and in the result: ``"alpha"``,
+        ``"roughness"`` (the square root of alpha), ``"glossiness"``, ``"exponent"`` or ``"squared"``. The
+        default is the model's own encoding (see :func:`models`).
+    transfer: ``"linear"`` or ``"srgb"`` for all colors, or a dict by parameter. By default integers are sRGB and
+        floats are linear, as in image files. Other parameters are data, which have no curve.
+    dtype: the type of the results: integers of 8 to 32 bits (the largest integer means 1), float16, float32 or
+        float64. The default is the type of the source array with the same name. If there is none, it is the
+        type of the first source array, or float32.
+    out: arrays to write into, keyed by the names of the results, of shape S or S + (3,). They may be the
+        sources themselves.
+    measures: additional results for a metallic target: ``"residual"``, ``"metallic_uncertainty"``, ``"issues"``.
+    outside: if true, also returns a Boolean array ``outside``, which marks texels outside the measured range.
+    bad_texels: how to treat NaN, infinite and negative values: ``"keep"``, ``"clamp"`` (to the measured range) or
+        ``"fail"``.
+    dither: adds noise of half a step to 8-bit results. The noise is the same in every run.
+    threads: number of threads, or 0 for one per core. The results do not depend on it.
 
-    Arrays are read and written in place: any strides, no copies (but of arrays in the other byte order). The lock of the
-    interpreter is released. Raises :class:`Error`, a ValueError.
+    Arrays may have any strides. They are read and written in place, without copies, unless they have the other
+    byte order. The interpreter lock is released. Raises :class:`Error`, which is a ValueError.
 
     >>> import numpy as np
     >>> result = convert(source="gltf-specgloss", target="gltf", glossiness=np.full((4, 4), 0.7, np.float32),
@@ -324,11 +336,12 @@ def _made_once(source, target, options):
 
 
 def _kept_converter(source, target, options):
-    """One of the last that were used; of files, which may have changed, a new one."""
+    """Returns a converter that was made before with the same arguments, or a new one. Files may have changed,
+    so their converters are always new."""
     if options.get("converters") is None:
         try:
             return _made_once(source, target, tuple(sorted(options.items())))
-        except TypeError:  # it cannot be a key
+        except TypeError:  # an option that cannot be hashed
             pass
     return Converter(source, target, **options)
 
@@ -340,7 +353,7 @@ def _thread_count(threads):
 
 
 def _array(name, value):
-    """An array of numbers in the order of this machine; None for what is no array."""
+    """Returns an array in the byte order of this machine, or None for a number or a list of numbers."""
     if isinstance(value, (int, float, tuple, list, np.number)) or (isinstance(value, np.ndarray) and value.ndim == 0):
         return None
     array = np.asarray(value)
@@ -373,7 +386,7 @@ def _require_fraction_numbers(name, values):
 
 
 def _require_fraction_array(name, array):
-    """Looks at some of the values: maps of some bright texels are usual, whole maps of them are not."""
+    """Looks at some of the values. A few bright texels are common in maps, but not whole maps of them."""
     if array.dtype.kind != "f":
         return
     some = array[tuple(slice(None, None, 1 + size // _LOOKED_AT) for size in array.shape)]
@@ -386,7 +399,7 @@ def _require_fraction_array(name, array):
 
 
 def _transfer_of(transfer, name, dtype):
-    """``"linear"`` or ``"srgb"`` of a color."""
+    """Returns ``"linear"`` or ``"srgb"``, the transfer curve of a parameter."""
     if name not in _COLORS or name == "residual":
         return "linear"
     asked = transfer.get(name) if isinstance(transfer, dict) else transfer
@@ -424,7 +437,7 @@ class _Maps:
         return self.arrays[name].shape[-1] if name in self.arrays else 0
 
     def results(self, made, names, dtype, out, transfer):
-        """Arrays for what is made, with ``out`` among them."""
+        """Returns arrays for the results, some of which ``out`` may contain."""
         wanted = None if dtype is None else _result_dtype(dtype)
         arrays = {}
         for name, channels in made.items():
@@ -480,7 +493,7 @@ def _with_channels(name, array, shape):
 
 
 def _apart(source, views):
-    """``source``, as a copy where a result lies over another part of its memory."""
+    """Returns ``source``, or a copy of it if a result would overwrite values that are still needed."""
     for view in views:
         same = (source.shape[:-1] == view.shape[:-1] and source.strides == view.strides
                 and source.__array_interface__["data"][0] == view.__array_interface__["data"][0])
@@ -490,7 +503,8 @@ def _apart(source, views):
 
 
 def _planes(array, shape):
-    """(height, width, channels) views of an array, without copies: one, or one for each index before the last two axes."""
+    """Returns views (height, width, channels) of an array, without copies. There is one view for each index
+    before the last two axes."""
     if len(shape) == 2:
         return [array]
     if len(shape) < 2:
@@ -499,7 +513,7 @@ def _planes(array, shape):
 
 
 def _run(conversion, maps, result, mask, options):
-    """Converts plane by plane, and adds up the counts."""
+    """Converts plane by plane. Returns the sum of the counts."""
     shape = maps.shape
     if 0 in shape:
         return Counts()

@@ -1,8 +1,8 @@
-"""Images in files, for the command texremap: by OpenImageIO's Python package (the extra ``images``).
+"""Images in files, for the command texremap, by OpenImageIO's Python package (the extra ``images``).
 
-The commands of texremap call an object with the methods of :class:`Images`; those call :class:`StoredImage` and
-:class:`NewImage`. What a new image keeps of the one that it follows is what the programs of the C++ build keep
-(runtime/texture/openimageio).
+The commands of texremap call an object with the methods of :class:`Images`, which calls
+:class:`StoredImage` and :class:`NewImage`. A new image keeps as much of the image that it follows as in the
+programs of the C++ build (runtime/texture/openimageio).
 """
 
 import io
@@ -39,7 +39,7 @@ _COLOR_SPACE = ("oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace", "png:cicp", 
 _NOTED_COLOR_SPACE = "remap:color_space"
 _MOST_PARTS = 4096
 MOST_TEXELS = 1 << 30  # of an image that is decoded as a whole
-_MOST_BYTES_OF_A_BYTE = 1_000_000  # no format packs more
+_MOST_BYTES_OF_A_BYTE = 1_000_000  # no format packs more bytes of pixels into a byte of the file
 _SMALLEST_PNG = 9
 _opening = threading.Lock()
 
@@ -71,7 +71,7 @@ def _noted(spec, name):
 
 
 def _types(spec):
-    """The pixel type of each channel."""
+    """Returns the pixel type of each channel."""
     formats = spec.channelformats or [spec.format] * spec.nchannels
     return [str(kind) for kind in formats]
 
@@ -92,7 +92,8 @@ _BMP_HEADERS = (40, 52, 56, 108, 124)  # their sizes; a header of 12 bytes has n
 
 
 def _format(head):
-    """The extension and OpenImageIO's name of a format, from the first bytes of a file; empty for one that is not read."""
+    """Returns the extension of a format and its name in OpenImageIO, from the first bytes of a file, or two
+    empty texts."""
     for begin, mark, extension, format in _MARKS:
         if head[begin : begin + len(mark)] == mark and (format != "webp" or head[:4] == b"RIFF"):
             return extension, format
@@ -102,7 +103,7 @@ def _format(head):
 
 
 def _leading_png_chunks(file):
-    """Names of the chunks of a PNG before its pixels, and where they claim to end."""
+    """Returns the names of the chunks of a PNG before its pixels, and where the chunks claim to end."""
     chunks, place = [], 8
     while True:
         file.seek(place)
@@ -114,7 +115,8 @@ def _leading_png_chunks(file):
 
 
 def _examined(file, fail):
-    """Extension, format and leading PNG chunks of an image; calls `fail` if its bytes would harm a reader."""
+    """Returns extension, format and leading PNG chunks of an image. Calls `fail` if its bytes would harm an
+    importer."""
     head = file.read(_LONGEST_HEAD)
     extension, format = _format(head)
     chunks = _leading_png_chunks(file) if format == "png" else []
@@ -131,7 +133,8 @@ def _examined(file, fail):
 
 
 def _open_as(format, path):
-    """An open file, only by the reader of `format`, which must be that of the extension; None if it refuses the file."""
+    """Opens a file only by the importer of `format`, which must be the format of the extension. Returns None
+    if the importer refuses it."""
     with _opening:  # the attribute belongs to the process
         others = oiio.get_int_attribute("try_all_readers", 1)
         oiio.attribute("try_all_readers", 0)
@@ -148,7 +151,8 @@ def _require_plausible(spec, size, fail):
 
 
 def _tells_color_space(spec, format, chunks):
-    """Whether the file says it; for these formats OpenImageIO assumes sRGB otherwise."""
+    """Returns whether the file states its color space. If it does not, OpenImageIO assumes sRGB for these
+    formats."""
     if format == "png":
         return any(name in (b"sRGB", b"gAMA") for name, _ in chunks)
     if format in ("jpeg", "tiff"):
@@ -300,12 +304,13 @@ class StoredImage:
                        f"{_first_line(message, 'unknown reason')} (the file may be truncated)")
 
     def noted_metadata(self, name):
-        """What an earlier run wrote under ``name``, as an attribute or in the tag Software; else None."""
+        """Returns what an earlier run wrote under ``name``, as an attribute or in the tag Software, or None."""
         return _noted(self.levels[0], name)
 
 
 def _stored_type(format, kind):
-    """The type in which ``format`` holds values with the least loss; None for unsupported formats."""
+    """Returns the type in which ``format`` stores values with the least loss, or None for unsupported
+    formats."""
     if format == "openexr":
         if kind in ("half", "float", "uint"):
             return kind
@@ -385,7 +390,8 @@ def _tag_colors(spec, format, kind, follows, changes, metadata):
 
 
 def _output_spec(model, model_format, output, changes, path):
-    """The description of a new file that follows ``model`` in all but ``changes``, as far as its format holds it."""
+    """Returns the description of a new file that equals ``model`` except for ``changes``, as far as its
+    format allows."""
     format = output.format_name()
 
     def fail(what):
@@ -438,7 +444,8 @@ def _output_spec(model, model_format, output, changes, path):
 
 
 def _for_writer(spec, format):
-    """``spec`` with a color space in every case: without one, OpenImageIO tags a PNG as sRGB, which data is not."""
+    """Returns ``spec``, always with a color space. Otherwise OpenImageIO would tag every PNG as sRGB, even
+    data."""
     if format != "png" or _text(spec, "oiio:ColorSpace"):
         return spec
     spec = oiio.ImageSpec(spec)
@@ -447,9 +454,9 @@ def _for_writer(spec, format):
 
 
 class NewImage:
-    """An image that is written to ``unfinished``; the caller gives the finished file its name ``path``.
+    """An image that is written to ``unfinished``. The caller gives the finished file its name ``path``.
 
-    ``parts``: for each part the :class:`StoredImage` that it follows, and what changes.
+    ``parts`` has for each part the :class:`StoredImage` that it follows, and the changes.
     """
 
     def __init__(self, path, unfinished, parts):
@@ -529,7 +536,7 @@ class NewImage:
         self._check(done)
 
     def finish(self):
-        """Closes the file and reads it back: all of the last plane's rows must be there."""
+        """Closes the file and reads it back, to check that all rows of the last plane exist."""
         self._check(self._output.close())
         self._output = None
         part, level = self._plane
@@ -574,7 +581,8 @@ class Images:
         return NewImage(path, unfinished, parts)
 
     def decode(self, data, place):
-        """(width, height, channels, pixel type, bytes) of an image in memory: uint8 or uint16, not multiplied by alpha."""
+        """Returns (width, height, channels, pixel type, bytes) of an image in memory. The type is uint8 or
+        uint16. Colors are not multiplied by alpha."""
         def fail(what):
             raise ValueError(f"{place}: {what}")
 

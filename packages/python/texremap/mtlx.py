@@ -1,7 +1,7 @@
 """Materials between MaterialX documents and glTF files: OpenPBR, standard_surface, glTF.
 
-Needs MaterialX (the extra ``materialx``) for MaterialX documents; materials whose textures change also need OpenImageIO (the extra
-``images``): ``texremap mtlx paint.mtlx --to gltf -o paint.glb``.
+MaterialX documents need MaterialX (the extra ``materialx``). Materials whose textures change also need
+OpenImageIO (the extra ``images``): ``texremap mtlx paint.mtlx --to gltf -o paint.glb``.
 """
 
 import os
@@ -39,7 +39,7 @@ class _Route:
         return values if self._steps else dict(values)
 
     def losses(self, sources):
-        """Inputs of each step that its translation does not use."""
+        """Returns the inputs of each step that its translation ignores."""
         lost = []
         for number, step in enumerate(self._steps):
             if number:
@@ -70,7 +70,7 @@ def _writer_of(output, reader, model, importer):
 
 
 def _converted(reader, writer, index, model, importer):
-    """The report about a material, which the writer has if it is converted."""
+    """Converts one material and gives it to the writer. Returns the report."""
     name = reader.name_of(index)
     try:
         reason = reader.reason_to_leave(index, _ALLOWED.get(importer))
@@ -90,10 +90,14 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
             force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
     """Converts the materials of ``source`` into a new document ``output``. Both are .mtlx, .glb or .gltf files.
 
-    to: ``"openpbr"``, ``"standard-surface"`` or ``"gltf"``; a glTF file can only hold the last. importer: ``"core"`` or ``"godot"``
-    puts what such an importer of glTF ignores into what it reads. A texture is used as it is where the result has a scale (in
-    MaterialX also a bias). Other textures lie in the GLB file, or in the folder ``STEM_textures`` beside ``output``. From glTF to
-    glTF, all other contents are kept. A material that cannot be converted is left out; others go on.
+    to: ``"openpbr"``, ``"standard-surface"`` or ``"gltf"``. A glTF file can only hold ``"gltf"``.
+    importer: ``"core"`` or ``"godot"``. Inputs that such an importer of glTF ignores are converted to inputs
+        that it reads.
+
+    If a result differs from a texture only by a scale (in MaterialX also by a bias), this texture is used. All
+    other textures are written into the GLB file, or into the folder ``STEM_textures`` beside ``output``. From
+    glTF to glTF, all other contents are kept. A material that cannot be converted is left out, and the other
+    materials are still converted.
 
     Returns a list of :class:`MaterialReport`. Raises :class:`Error`.
     """

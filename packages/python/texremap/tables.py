@@ -10,7 +10,7 @@ from ._error import Error
 
 
 class Table(NamedTuple):
-    """Rows of matches and what the comments of the file say."""
+    """The rows of a table, and the comments of its file."""
 
     rows: npt.NDArray[Any]
     """A structured array: a field for each column, by its name in the file; float64, or a text such as ``status``."""
@@ -19,7 +19,7 @@ class Table(NamedTuple):
 
 
 def _column(cells):
-    """float64, an empty cell as NaN; texts where a cell is no number."""
+    """Returns a column as float64, with NaN for an empty cell. If a cell is not a number, returns the texts."""
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:
@@ -27,9 +27,9 @@ def _column(cells):
 
 
 def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
-    """Reads a table of matches (CSV with a head of comments; docs/formats of the project).
+    """Reads a table of matches. This is CSV that begins with comments (docs/formats of the project).
 
-    Returns a :class:`Table`. Raises :class:`Error` of kind ``"input"`` where the file is no such table.
+    Returns a :class:`Table`. Raises :class:`Error` of kind ``"input"`` if the file is not such a table.
     """
 
     def refuse(what):

@@ -1,7 +1,9 @@
-"""Materials of USD files: UsdPreviewSurface to OpenPBR and back, and between the metallic and the specular workflow.
+"""Materials of USD files: UsdPreviewSurface to OpenPBR and back, and between the metallic and the specular
+workflow.
 
-Needs usd-core (the extra ``usd``); materials with textures also need OpenImageIO (the extra ``images``). The result is a new layer that
-sublayers the old one, which stays as it is: ``texremap usd scene.usda --to openpbr -o scene_openpbr.usda``.
+This needs usd-core (the extra ``usd``). Materials with textures also need OpenImageIO (the extra ``images``).
+The result is a new layer that sublayers the old one, which does not change:
+``texremap usd scene.usda --to openpbr -o scene_openpbr.usda``.
 """
 
 import os
@@ -35,7 +37,7 @@ _ROUGHNESS = 0.5  # any: both ends of a workflow share a BRDF, so that roughness
 
 
 class _Direction(NamedTuple):
-    """What is read, how it is converted, and what is written."""
+    """The inputs that a conversion reads and writes."""
 
     reads: str  # the model
     writes: str
@@ -85,7 +87,7 @@ def _workflow_translation(to):
 
 
 class _MaterialEdit:
-    """What one material of the source becomes."""
+    """The conversion of one material of the source."""
 
     def __init__(self, material, shader, to, translate, folder):
         self._material, self._shader, self._to, self._folder = material, shader, to, folder
@@ -193,7 +195,7 @@ class _MaterialEdit:
 
 
 def _surface(material, context, identity):
-    """The shader of a render context, if it is the one that is wanted."""
+    """Returns the shader of a render context if its identifier is ``identity``, otherwise None."""
     output = material.GetSurfaceOutput(context) if context else material.GetSurfaceOutput()
     if not output:
         return None
@@ -203,7 +205,7 @@ def _surface(material, context, identity):
 
 
 def _reason_to_leave(prim, to):
-    """The shader that is converted, and why it is not."""
+    """Returns the shader to convert, and the reason why it is not converted, or an empty text."""
     material = UsdShade.Material(prim)
     preview, paint = _surface(material, "", _PREVIEW), _surface(material, "mtlx", OPEN_PBR_ID)
     if to == "openpbr" and material.GetSurfaceOutput("mtlx"):
@@ -221,7 +223,7 @@ def _reason_to_leave(prim, to):
 
 
 def _plan(stage, to, folder):
-    """An edit or a :class:`MaterialReport` for each material."""
+    """Yields an edit or a :class:`MaterialReport` for each material."""
     translate = (materials.TRANSLATIONS[_DIRECTIONS[to].reads, _DIRECTIONS[to].writes] if to in ("openpbr", "preview")
                  else _workflow_translation(to))
     for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
@@ -241,7 +243,8 @@ def _plan(stage, to, folder):
 
 
 def _reason_of(source, text):
-    """A message with the place in the file, from USD's errors, each of which is `Error in FUNCTION at LINE in SOURCE : 'WHAT'`."""
+    """Returns a message with the place in the file. Each of USD's errors is `Error in FUNCTION at LINE in
+    SOURCE : 'WHAT'`."""
     if not os.path.exists(source):
         return f"{source}: cannot be read: file not found"
     first = re.search(r" : '([^\n]*)", text)
@@ -255,10 +258,14 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
             force: bool = False, dry_run: bool = False) -> List[MaterialReport]:
     """Converts the materials of ``source`` into a new layer ``output``, which sublayers ``source``.
 
-    to: ``"openpbr"`` adds an OpenPBR surface of MaterialX to each UsdPreviewSurface, ``"preview"`` a UsdPreviewSurface to each OpenPBR;
-    ``"metallic"`` and ``"specular"`` change the workflow of each UsdPreviewSurface. A texture is used as it is where the result differs
-    by a scale and a bias. Other textures are written into the folder ``STEM_textures`` beside ``output``; a result that is the same
-    everywhere becomes a value. A material that cannot be converted stays as it is and is named; others go on.
+    to: ``"openpbr"`` adds an OpenPBR surface of MaterialX to each UsdPreviewSurface. ``"preview"`` adds a
+        UsdPreviewSurface to each OpenPBR surface. ``"metallic"`` and ``"specular"`` change the workflow of each
+        UsdPreviewSurface.
+
+    If a result differs from a texture only by a scale and a bias, this texture is used. All other textures are
+    written into the folder ``STEM_textures`` beside ``output``. A result that is the same everywhere becomes a
+    value. A material that cannot be converted does not change and is reported, and the other materials are
+    still converted.
 
     Returns a list of :class:`MaterialReport`. Raises :class:`Error`.
     """
@@ -287,7 +294,7 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
 
 
 def _write_layer(root, edits, output, folder):
-    """Authors the edits into a new file, which becomes ``output``."""
+    """Writes the edits into a new file, which becomes ``output``."""
     parent = os.path.dirname(os.path.abspath(output))
     try:
         os.makedirs(folder if any(edit.textures() for edit in edits) else parent, exist_ok=True)

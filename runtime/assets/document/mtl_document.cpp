@@ -21,8 +21,8 @@ std::string in_lower_case(std::string_view text) {
 
 MtlDocument::MtlDocument(std::string_view text, const std::string& context) : text_(text) {
   if (text.size() > kLongestMtl)
-    throw input_error(context + ": has " + std::to_string(text.size()) + " bytes; at most " +
-                      std::to_string(kLongestMtl) + " are read");
+    throw input_error(context + ": has " + std::to_string(text.size()) + " bytes, but at most " +
+                      std::to_string(kLongestMtl) + " can be read (split it into several files)");
   std::size_t at = text.starts_with(kMarkOfUtf8) ? kMarkOfUtf8.size() : 0;
   while (at < text.size()) {
     const std::size_t end = end_of_line(at);

@@ -195,8 +195,9 @@ void GltfNewImages::drop_formats(SpanValue texture, TextEdits& edits) {
   for (const SpanValue& member : gone) edits.remove(member);
 }
 
-// Returns the view of another new image, because this adds no bytes. If there is none, returns an image of
-// one texel.
+// Returns bytes for an image that nothing uses but that must stay in the file. These are the bytes of a new
+// image in a buffer view, because sharing them adds nothing to the file. If no new image has a view, they are
+// a PNG of one texel.
 GltfNewImages::Location GltfNewImages::cheapest_location() const {
   const auto is_short = [](const Location& location) { return location.back().first == "mimeType"; };
   if (const auto found = std::ranges::find_if(locations_, is_short); found != locations_.end()) return *found;
@@ -205,8 +206,8 @@ GltfNewImages::Location GltfNewImages::cheapest_location() const {
            "\"data:image/png;base64," + base64(resources_.codec().encode_png(texel, kUsualPngLevel)) + "\""}};
 }
 
-// Empties spare images and views that no new image uses. An image must have bytes, and a view at least one
-// byte. So they refer to bytes that other images use.
+// Empties images and views that nothing uses any more and that no new image replaces. An image must have
+// bytes, and a view at least one byte. So they refer to bytes that other images use.
 void GltfNewImages::empty_spares(TextEdits& edits) {
   for (const std::size_t image : spares_.images) set_location(images_[image], cheapest_location(), edits);
   for (const std::size_t view : spares_.views) {

@@ -44,8 +44,9 @@ SourceParameter color_source(const ImagePixels* pixels, const std::array<double,
 // grey image has one channel for all three colors.
 SourceParameter value_source(const ImagePixels* pixels, std::size_t channel, double factor, const char* name);
 
-// Returns three channels in sRGB.
+// Returns the first three channels of `pixels` as the place for a converted color, which is stored as sRGB.
 TargetParameter color_target(ImagePixels& pixels);
+// Returns one channel of `pixels` as the place for a converted linear value.
 TargetParameter value_target(ImagePixels& pixels, std::size_t channel);
 
 // Returns true if the colors of `result` equal `map` times the factors, within a step of 8 bits.

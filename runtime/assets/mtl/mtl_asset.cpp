@@ -327,8 +327,8 @@ bool is_mtl_map(const std::string& word) {
 
 std::string mtl_text(const ByteSource& source, const std::string& context) {
   if (source.size() > kLongestMtl)
-    throw input_error(context + ": has " + std::to_string(source.size()) + " bytes; at most " +
-                      std::to_string(kLongestMtl) + " are read");
+    throw input_error(context + ": has " + std::to_string(source.size()) + " bytes, but at most " +
+                      std::to_string(kLongestMtl) + " can be read (split it into several files)");
   return utf8_text(source, context);
 }
 

@@ -139,7 +139,8 @@ std::string MtlImages::require(const MtlMap& map, std::vector<std::string>& warn
   if (!map.unusual.empty())
     throw input_error(name + ": has " + map.unusual.front() +
                       ", which is not applied (bake it into the image)");
-  if (resources_ == nullptr) throw input_error(name + ": cannot be read, because no files can be");
+  if (resources_ == nullptr)
+    throw input_error(name + ": cannot be read, because only the text of the MTL file is available");
   const std::optional<std::string> path = find(map.file, warnings);
   if (!path) throw input_error(name + ": was not found (put it next to the MTL file)");
   return *path;

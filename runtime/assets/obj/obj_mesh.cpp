@@ -34,8 +34,8 @@ class ObjLines {
  public:
   ObjLines(const ByteSource& source, const std::string& context) : reader_(source, context) {
     if (source.size() > kLongestObj)
-      throw input_error(context + ": has " + std::to_string(source.size()) + " bytes; at most " +
-                        std::to_string(kLongestObj) + " are read");
+      throw input_error(context + ": has " + std::to_string(source.size()) + " bytes, but at most " +
+                        std::to_string(kLongestObj) + " can be read (split it into several files)");
     constexpr std::string_view kMark = "\xef\xbb\xbf";
     if (!is_at_end() && block_.starts_with(kMark)) at_ = kMark.size();
   }

@@ -93,7 +93,7 @@ void add_index_command(Command& app) {
       command->add_flag("--assets", options.assets,
                         "List the assets (glTF and MTL files, with --format glb or gltf OBJ files) "
                         "in DIR, not the texture sets");
-  command->add_option("--format EXT", options.format, "What OBJ files are to become, as for convert")
+  command->add_option("--format EXT", options.format, "Format that OBJ files are converted to: glb or gltf")
       ->needs(assets);
   command->add_option("--names FILE", options.names, "More naming conventions (JSON)")->excludes(assets);
   command->add_flag("--force", options.force, "Overwrite an existing manifest");

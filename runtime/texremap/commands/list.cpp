@@ -201,8 +201,7 @@ void list_names(const ListOptions& options) {
     std::cout << names.dump(2) << '\n';
     return;
   }
-  print_names("Programs: name for --from and --to, and its material where that has another name",
-              known_programs());
+  print_names("Programs: name for --from and --to (and its model, if the names differ)", known_programs());
   print_names("\nFile formats", known_formats());
   std::cout << "\nRenderers and research models\n";
   print_renderers(models);

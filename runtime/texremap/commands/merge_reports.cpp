@@ -75,8 +75,8 @@ void add_merge_reports_command(Command& app) {
   command->add_flag("--json", options.json, "Print the report to standard output");
   command->add_flag("--quiet", options.quiet, "Print nothing but failures to standard error");
   command->footer(
-      "The exit code is 1 if a set or an asset failed, or if the parts do not belong to one conversion, each "
-      "once.\n\n"
+      "The exit code is 1 if a set or an asset failed, if a part is missing, or if parts belong to different "
+      "conversions or contain the same set.\n\n"
       "Example:\n"
       "  texremap merge-reports converted -o report.jsonl");
 }

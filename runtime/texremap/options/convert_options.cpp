@@ -351,8 +351,9 @@ constexpr std::array<std::pair<const char*, const char*>, 23> kNewNames = {{
 void add_output_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: output");
   command
-      .add_option("-o,--output DIR", options.output,
-                  "Folder for the results, which keep the names of the inputs; of one asset also a file")
+      .add_option(
+          "-o,--output DIR", options.output,
+          "Folder for the results, which keep the names of the inputs; for one asset, a file can be given")
       ->common()
       ->tag(kForAssets | kNeedsFiles);
   command
@@ -370,9 +371,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--compression LEVEL", options.compression, compression(),
           "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in assets). In glTF files also jpeg=QUALITY or 9,jpeg=90: writes new maps of color "
-          "as "
-          "JPEG, 1 to 100, where the old ones are JPEG and have no alpha")
+          "PNG files, 3 in assets). For glTF files also jpeg=QUALITY, from 1 to 100, or both as 9,jpeg=90: "
+          "new "
+          "color maps become JPEG if the old ones are JPEG without alpha")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),
@@ -421,8 +422,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command
       .add_flag(
           "--verbose", options.verbose,
-          "Print every warning, the converter, and measures of each set that pictures do not show; with "
-          "--json also histograms")
+          "Print every warning, the converter, and also measures without a visible effect; with --json also "
+          "histograms")
       ->tag(kForAssets | kNeedsFiles)
       ->excludes(quiet);
 }

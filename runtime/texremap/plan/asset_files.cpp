@@ -24,7 +24,8 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
   for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
     if (place.empty() || place.is_absolute() || *place.begin() == "..")
       throw input_error(
-          display_path(path) + ": is outside the folder " + display_path(root) +
+          display_path(path) + ": is outside the " +
+          (root.lexically_normal() == "." ? "current folder" : "folder " + display_path(root)) +
           " (copy the file into this folder, or give a folder that contains both before the asset)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))

@@ -53,8 +53,8 @@ void add_named(const ConvertOptions& options, JobList& list) {
     const fs::path root = options.asset_root.empty() ? folder_of_asset(input) : options.asset_root;
     const fs::path below = input.lexically_normal().lexically_relative(root.lexically_normal());
     if (below.empty() || *below.begin() == "..")
-      throw usage_error(display_path(input) + ": is not inside " + root.string() +
-                        ", the folder before it (give a folder that contains it)");
+      throw usage_error(display_path(input) + ": is not inside the folder " + root.string() +
+                        ", which is given before it (give a folder that contains the file)");
     add({input, options.output / result_name(below, options), root, options.output}, list);
   }
 }

@@ -257,8 +257,10 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
                                        ", which stores " + std::string(encoding_name(*held)) +
                                        " (use --layout separate)");
   if (options.only == Parameter::kSpecular)
-    throw Error(ErrorKind::kUsage,
-                "--output-encoding: has no effect, because --only specular writes no roughness");
+    throw Error(
+        ErrorKind::kUsage,
+        "--output-encoding: has no effect, because --only specular writes no roughness (remove one of "
+        "the two)");
 }
 
 }  // namespace
@@ -356,7 +358,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
   if (options.only) choice.parameters = {*options.only};
   if (workflow.changes_nothing) choice.unchanged = choice.parameters;
   choice.color_transfers = color_spaces("--output-color-space", options.output_color_spaces,
-                                        colors_among(choice.parameters), "is written");
+                                        colors_among(choice.parameters), "is written (remove this option)");
   require_encoding(options, choice);
   return choice;
 }

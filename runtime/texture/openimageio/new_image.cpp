@@ -113,8 +113,8 @@ class OpenedNewImage : public NewImage {
   bool plane_is_open_ = false;
 };
 
-// Prepares everything except the encoder. It is opened later, because libpng prints errors if it gets no
-// texels.
+// Prepares everything except the encoder. The encoder is opened later, because libpng prints errors if it
+// gets no texels.
 void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   output_ = OIIO::ImageOutput::create(path_.string());
   if (!output_) {

@@ -42,7 +42,8 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
 std::unique_ptr<StoredImage> open_image(const std::shared_ptr<const InputFile>& file, int part);
 std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
 
-// Returns the levels of a stored image, at the size for new images that are made from it.
+// Returns the descriptions of all levels of a stored image. A new image that is made from it gets the same
+// levels.
 const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image);
 
 Picture read_picture(const std::filesystem::path& path);

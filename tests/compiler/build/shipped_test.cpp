@@ -123,8 +123,8 @@ TEST_CASE("shipped: pictures are nearer to the source's than those of copied num
   CHECK(judged >= 42);
 }
 
-// Some renderers have no pictures of both models, so rows judge the fit. A difference of one part in fifty is
-// invisible on spheres of these renderers.
+// Some renderers have no pictures of both models, so these fits are compared with the rows of their tables. A
+// difference of one part in fifty is invisible on spheres of these renderers.
 TEST_CASE("shipped: fits without pictures follow the rows of their tables") {
   for (const Fit& fit : shipped()) {
     if (!is_measured(fit) || fit.pictures) continue;

@@ -1,5 +1,5 @@
-// This file tests what every kind of fit must do. It follows a surface between its rows, with any number of
-// threads, and reports its progress. From an unusual table it gives finite values or an error.
+// This file tests what every kind of fit must do. A fit follows a surface between its rows, with any number
+// of threads, and reports its progress. An unusual table gives finite values or an error.
 #include "fit/kinds.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Rows rows_of(int widths = 8, int speculars = 5) {
   return rows;
 }
 
-// Returns rows of which `change` has changed each.
+// Returns the rows after `change` was applied to each of them.
 Rows changed(const std::function<void(TableRow&)>& change, Rows rows = rows_of()) {
   std::for_each(rows.begin(), rows.end(), change);
   return rows;

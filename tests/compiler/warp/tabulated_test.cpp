@@ -40,8 +40,8 @@ TabulatedMaterial tabulated(const WarpMaterial& material) {
   return table;
 }
 
-// Returns the RMS distance of the copies from the correct result by the relative distance, relative to the
-// template's spread.
+// Returns the RMS distance of the copies from the correct result, as a fraction of the template's spread. The
+// distance is AppearanceDistance::kRelative.
 double error_of(const WarpSet& set, const AppearanceMatch& match, const MaterialRef& source,
                 const MaterialRef& target) {
   const FeaturePair features = appearance_features(set.source, set.target);
@@ -108,7 +108,8 @@ TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds t
   const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
   exact.target.model = model.lobe;
   exact.target.is_dielectric = model.is_dielectric;
-  // Compares the features of the same texel. The plain distance needs no reference.
+  // Compares the features of the same texel. kPlain is used, because it does not depend on the other
+  // material.
   const FeaturePair pair = appearance_features(set.target, exact.target, AppearanceDistance::kPlain);
   const WarpTexel texel = set.target.texels[1234];
   const Eigen::VectorXd by_schlick = features_of(pair.source, texel),

@@ -144,8 +144,9 @@ inline void require_material_kept(SpanValue before, SpanValue after, const Asset
       REQUIRE(after["extensions"].find(key).raw() == before["extensions"].find(key).raw());
 }
 
-// Checks that no byte has changed except in converted materials, in the lists of extensions and, if the file
-// is compacted, in spare images. Returns the number of materials that differ.
+// Checks that no byte has changed except in converted materials, in the lists of extensions and, if unused
+// images are removed, in images that only converted materials used. Returns the number of materials that
+// differ.
 inline std::size_t require_others_kept(const std::string& before, const std::string& after,
                                        const AssetOptions& options = {}) {
   const SpannedJson old_json(before, "before"), new_json(after, "after");

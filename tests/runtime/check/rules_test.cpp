@@ -148,7 +148,7 @@ TEST_CASE("rules: metallic in another channel than the name says") {
   CHECK(found(set_of({{map_of("a_ORM.png", {white, binary, rough}), orm}})) == Names{"channel-order"});
 }
 
-TEST_CASE("check: what assets state, and files that are no assets") {
+TEST_CASE("check: what assets state, and files that are not assets") {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::string& text) {
     std::ofstream(folder.path() / name) << text;

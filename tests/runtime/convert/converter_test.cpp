@@ -1,5 +1,5 @@
-// This file tests converters by their interface: compiled ones in the domain of their fits, the interpreted
-// one against the interpreter.
+// This file tests converters by their interface. Compiled converters are tested in the domain of their fits,
+// and the interpreted converter is compared with the interpreter.
 #include "remap/converter.hpp"
 
 #include <array>

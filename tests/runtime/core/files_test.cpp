@@ -27,7 +27,7 @@ TEST_CASE("write file: replaces the old one whole, and leaves it where it fails"
   CHECK(read_file(path) == "two");
 }
 
-TEST_CASE("read file: a folder and a missing file are told apart") {
+TEST_CASE("read file: a folder and a missing file have different messages") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(read_file(folder.path()), Catch::Contains("is a folder"));
   CHECK_THROWS_WITH(read_file(folder.path() / "no"), Catch::Contains("No such file"));
@@ -88,7 +88,7 @@ TEST_CASE("read file: what is larger than a limit is refused, whatever its size 
   CHECK(refusal([&] { read_file(path); }).find("has more than 256 MB") != std::string::npos);
 }
 
-TEST_CASE("unfinished files: those of processes that were killed are removed, all others stay") {
+TEST_CASE("unfinished files: the files of killed processes are removed, all others stay") {
   const TemporaryFolder folder;
   const pid_t dead = ::fork();
   if (dead == 0) {

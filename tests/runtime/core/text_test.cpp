@@ -118,7 +118,7 @@ TEST_CASE("parse JSON: a message does not repeat a text without end") {
                     "x.json: has 64 MB of JSON; at most 64 MB can be read");
 }
 
-TEST_CASE("JSON: the bytes of texts that are no UTF-8 stand beside them") {
+TEST_CASE("JSON: the bytes of texts that are not UTF-8 are written beside them") {
   const Json lost = {
       {"path", "caf\xe9"}, {"inputs", Json::list({"a", "\xff", nullptr})}, {"name", "caf\xc3\xa9"}};
   CHECK(lost.dump() ==

@@ -57,7 +57,7 @@ void check_golden(const std::vector<float>& a, const std::vector<float>& b, cons
 
 }  // namespace
 
-TEST_CASE("image similarity: structural similarity equals that of scikit-image") {
+TEST_CASE("image similarity: structural similarity equals the result of scikit-image") {
   check_golden(waves(), other_waves(), kWavesToWaves);
   check_golden(waves(), grain(), kWavesToGrain);
 }
@@ -68,7 +68,7 @@ TEST_CASE("image similarity: it is symmetric, and 1 for equal pictures") {
         structural_similarity(grain(), waves(), kWidth, kHeight));
 }
 
-TEST_CASE("image similarity: constant pictures differ by their means alone") {
+TEST_CASE("image similarity: constant pictures differ only by their means") {
   // The similarity is (2 a b + C1) / (a^2 + b^2 + C1): Wang et al. 2004, equation (13) without variance.
   const std::vector<float> a(16, 0.25f), b(16, 0.75f);
   CHECK(structural_similarity(a, b, 4, 4) == Approx((0.375 + 1e-4) / (0.625 + 1e-4)).epsilon(1e-6));

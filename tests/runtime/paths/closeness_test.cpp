@@ -178,7 +178,7 @@ TEST_CASE("closeness: pictures that were never compared are not judged") {
   CHECK(is_measured(converters.path("a/source", "b/far")));
 }
 
-TEST_CASE("closeness: differences of pictures are those that were measured, or about those of image errors") {
+TEST_CASE("closeness: differences of pictures are measured, or estimated from image errors") {
   RatedConverters converters;
   converters.add("a/a", "a/b", 0.1, PictureDifference{3.0, 12.0});
   converters.add("a/b", "a/c", 4.0 / kPercentOfImageError);

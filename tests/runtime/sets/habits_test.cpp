@@ -101,7 +101,7 @@ TEST_CASE("Poly Haven: rough_ao packs roughness and occlusion", "[reports]") {
   CHECK(only_set(rough.find(), "dark_rough").maps.size() == 3);
 }
 
-TEST_CASE("packed maps: the order of the words is that of the channels", "[reports]") {
+TEST_CASE("packed maps: words and channels have the same order", "[reports]") {
   const auto meaning = [](const std::string& name) {
     const std::string text = reading_text(name);
     return text.substr(text.find(": ") + 2);
@@ -223,7 +223,7 @@ TEST_CASE("read name: words inside other words and names of sets do not count") 
   CHECK(reading_text("rusty_metal_roughness").ends_with(": roughness"));
 }
 
-TEST_CASE("read name: the roughness of a coat is not that of the base") {
+TEST_CASE("read name: the roughness of a coat is not the roughness of the base") {
   for (const std::string name : {"car_CoatRoughness", "car_coat_roughness", "car_clearcoatRoughness",
                                  "car_sheen_roughness", "car_diffuseRoughness"})
     CHECK(reading_text(name).ends_with(": other"));

@@ -57,14 +57,14 @@ TEST_CASE("naming file: errors name the field and the expected value") {
   CHECK(complaint("[") != "none");
   CHECK(complaint("[]") == "names.json: expected an object, found []");
   CHECK(complaint("{}") == "names.json: has no field \"habits\"");
-  CHECK(complaint(R"({"habits": []})") == "names.json.habits: expected a list of at least 1, found []");
+  CHECK(complaint(R"({"habits": []})") == "names.json.habits: expected a list of at least 1 entry, found []");
   CHECK(complaint(R"({"habit": []})") == "names.json: unknown field 'habit' (did you mean habits?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "role": "rougness"})")) ==
         "names.json.habits[0].rules[0].role: unknown role 'rougness' (did you mean roughness?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"X": "roughness"}})"))
             .find("channels: unknown field 'X'") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": [], "role": "roughness"})")) ==
-        "names.json.habits[0].rules[0].words: expected a list of at least 1, found []");
+        "names.json.habits[0].rules[0].words: expected a list of at least 1 entry, found []");
   CHECK(complaint(with_rule(R"({"words": ["_"], "role": "roughness"})")) ==
         "names.json.habits[0].rules[0].words[0]: expected a word, found \"_\"");
   CHECK(complaint(with_rule(R"({"words": ["4K"], "role": "roughness"})")).find("neither a resolution") !=

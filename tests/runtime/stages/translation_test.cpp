@@ -1,5 +1,5 @@
-// Translations of whole materials: the flat form of surfaces against the structs of the generated header, and
-// what a translation makes of a set of maps.
+// This file tests translations of whole materials. It compares the flat form of surfaces with the structs of
+// the generated header, and tests what a translation makes of a set of maps.
 #include <algorithm>
 #include <random>
 #include <set>
@@ -93,8 +93,8 @@ TEST_CASE("translation: every input of a model has its own parameter, and every 
       if (!input.parameter) continue;
       CHECK(parameters.insert(*input.parameter).second);
       CHECK(is_color(*input.parameter) == (input.channels == 3));
-      const auto named =
-          parameter_named(input.name);  // of several with one name, the one that most models have
+      // If several parameters have this name, this is the one that most models have.
+      const auto named = parameter_named(input.name);
       const bool is_other = input.name == "specular" || is_color(*named) != is_color(*input.parameter);
       if (surface != Surface::kUsdPreviewSpecular && !is_other) CHECK(named == input.parameter);
     }
@@ -122,7 +122,7 @@ TEST_CASE("translation: the effect on a set of maps is found") {
         std::vector<std::string>{"roughness", "base_color", "metallic", "ior", "coat_weight"});
   CHECK(usd.lost == std::vector<std::string>{"fuzz_weight"});
 
-  // A coat that is not there hides its color.
+  // Without a coat, the color of the coat has no effect.
   const TranslationEffect hidden =
       effect_of({Surface::kOpenPbr, Surface::kStandardSurface},
                 {{Parameter::kBaseColor, {}}, {*parameter_named("coat_color"), {}}});

@@ -12,7 +12,7 @@
 
 using namespace remap;
 
-TEST_CASE("warp converter: every texel is that of the warp in double precision") {
+TEST_CASE("warp converter: every texel equals the result of the warp in double precision") {
   const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3),
              count = GENERATE(as<std::size_t>{}, 1, 63, 1000);
   const bool quadratic = GENERATE(false, true), copied = GENERATE(false, true);

@@ -97,7 +97,7 @@ TEST_CASE("The codec refuses Targa files with colors behind the end of their pal
   CHECK(decode(targa(1, 8, {1, 0, 1})).width == 3);
   CHECK_THROWS_WITH(decode(targa(1, 8, {1, 0, 2})), behind);
   CHECK_THROWS_WITH(decode(targa(1, 16, {1, 0, 0, 0, 1, 1})), behind);
-  // The Targa has runs of one color, and as many as their length states.
+  // In this Targa, a run repeats one color, or lists as many colors as its length states.
   CHECK(decode(targa(9, 8, std::string("\x81\1\0\0", 4))).width == 3);
   CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\x82\2", 2))), behind);
   CHECK_THROWS_WITH(decode(targa(9, 8, std::string("\2\1\0\2", 4))), behind);

@@ -8,7 +8,7 @@
 
 using namespace remap;
 
-TEST_CASE("image library: there is one, and its errors are those of the program") {
+TEST_CASE("image library: it can be loaded, and the program can catch its errors") {
   CHECK(&image_library() == &image_library());
   const TemporaryFolder folder;
   const auto text = folder.path() / "text.png";

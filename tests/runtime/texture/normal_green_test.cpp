@@ -26,7 +26,7 @@ TEST_CASE("normal green: names say it by words, and have a name for the other wa
     CHECK_FALSE(stated_green(silent));
 }
 
-TEST_CASE("normal green: a turned copy differs in green alone, whatever the pixel type") {
+TEST_CASE("normal green: an inverted copy differs only in green, for every pixel type") {
   const TemporaryFolder folder;
   const auto type = GENERATE(OIIO::TypeDesc(OIIO::TypeDesc::UINT8), OIIO::TypeDesc(OIIO::TypeDesc::UINT16),
                              OIIO::TypeDesc(OIIO::TypeDesc::HALF));

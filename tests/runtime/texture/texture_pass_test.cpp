@@ -119,7 +119,7 @@ TEST_CASE("texture pass: equals the converter for each texel, for any threads an
   }
 }
 
-TEST_CASE("texture pass: compiled converters give the same results in a map as alone", "[slow]") {
+TEST_CASE("texture pass: compiled converters give the same results in a map as on rows", "[slow]") {
   const Scene scene;
   // the pass only depends on both conventions, so each pair is tested once
   std::set<std::pair<RoughnessEncoding, RoughnessEncoding>> seen;

@@ -105,7 +105,7 @@ TEST_CASE("texture set: the last colon separates a file from its channels") {
   CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
   CHECK(map(":G").file == ":G");
   for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
-  // If a file has the whole name, it is used.
+  // If a file with this whole name exists, `:G` is part of the name and not a channel.
   const Files files;
   const std::string odd = files.image("odd:G.exr", {"Y"}).string();
   CHECK(map(odd).file == odd);
@@ -200,7 +200,7 @@ TEST_CASE("image reader: only the first part of a file counts the parts, which t
   CHECK_THROWS_WITH(ImageReader(more, 128), Contains("has more than 128 parts"));
 }
 
-TEST_CASE("texture set: a lack of open files is no fault of the image") {
+TEST_CASE("texture set: a lack of open files is not reported as a fault of the image") {
   const Files files;
   const auto image = files.image("r.exr", {"Y"});
   (void)image_library();  // loads the module first, because loading opens files, too

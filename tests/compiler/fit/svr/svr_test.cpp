@@ -182,7 +182,7 @@ TEST_CASE("svr: duplicated rows give the same fit as once, bit for bit") {
   CHECK(std::get<Svr>(two.mapping).specular == std::get<Svr>(one.mapping).specular);
 }
 
-TEST_CASE("svr: hyper-parameters that are no positive numbers are refused") {
+TEST_CASE("svr: hyper-parameters that are not positive numbers are refused") {
   for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
     SvrOptions options = given();
     options.specular->gamma = wrong;

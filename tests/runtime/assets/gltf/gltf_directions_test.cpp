@@ -265,7 +265,7 @@ TEST_CASE("Folding keeps what core can represent", "[assets]") {
   }
 }
 
-TEST_CASE("What folding leaves alone", "[assets]") {
+TEST_CASE("What folding does not change", "[assets]") {
   const std::string kept = R"({"extensions":{"KHR_materials_ior":{},"KHR_materials_volume":{}}})";
   const AssetConversion result = convert_gltf(
       MemorySource(file_with(

@@ -143,7 +143,7 @@ TEST_CASE("The diffuse image stays where base color equals it", "[assets]") {
       R"({"baseColorFactor":[0.5,0.6,0.7,1],"baseColorTexture":{"index":0,"extras":2},"metallicFactor":0,"roughnessFactor":0.8})");
 }
 
-TEST_CASE("The exact form makes a map of roughness alone", "[assets]") {
+TEST_CASE("The exact form makes a map of only roughness", "[assets]") {
   const ImagePixels specgloss = random_pixels(4, 2);
   const Reread after =
       reread(container_of({random_pixels(3, 1), specgloss}, textured(kBoth + R"(,"glossinessFactor":0.5)")),

@@ -274,7 +274,8 @@ TEST_CASE("Compaction keeps what others use", "[assets]") {
   CHECK(kept.root()["images"].size() == 3);
   CHECK(kept.image(kept.material(0)["occlusionTexture"]).bytes == odd.bytes);
   CHECK(kept.material(0)["pbrMetallicRoughness"]["baseColorTexture"].raw() == R"({"index":0})");
-  // The spare image lies before an image that is used, so its bytes stay. A new image gets its index.
+  // The image that is no longer used lies before an image that is used, so its bytes stay. A new image gets
+  // its index.
   std::string normal = textured(kBoth);
   normal.replace(normal.size() - 1, 1, R"(,"normalTexture":{"index":2}})");
   const std::string bytes = container_of({shared, odd, mesh}, normal);
@@ -461,7 +462,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
   CHECK(compact_bytes < plain_bytes);
 }
 
-TEST_CASE("Files that only spare images named are no longer of the asset", "[assets]") {
+TEST_CASE("Files that only unused images refer to no longer belong to the asset", "[assets]") {
   PlainResources resources;
   resources.files["a.png"] = file_of(random_pixels(3, 1));
   resources.files["b.png"] = file_of(random_pixels(4, 2));

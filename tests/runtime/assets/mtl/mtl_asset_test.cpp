@@ -391,7 +391,7 @@ TEST_CASE("Random texts: all but converted lines stays byte for byte, and a seco
   }
 }
 
-TEST_CASE("Public MTL files: lines that are added and Kd alone differ", "[assets][needs]") {
+TEST_CASE("Public MTL files: only added lines and Kd differ", "[assets][needs]") {
   const std::filesystem::path folder = shared_data("assets/mtl");
   if (folder.empty()) return;
   std::size_t count = 0;

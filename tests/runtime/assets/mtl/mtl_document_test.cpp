@@ -50,7 +50,7 @@ TEST_CASE("A backslash joins lines, but not after a comment", "[assets]") {
   CHECK(document.word(document.statements()[2]) == "ns");
 }
 
-TEST_CASE("Spans of statements cover every byte that is no comment and no blank line", "[assets]") {
+TEST_CASE("Spans of statements cover every byte outside of comments and blank lines", "[assets]") {
   std::mt19937 random(7);
   const std::string letters = "aK \t#\\\r\n.1\0";
   for (int i = 0; i < 3000; ++i) {

@@ -148,7 +148,7 @@ TEST_CASE("reports: 01 maps of Blender hold roughness and metallic, and levels o
             .number("roughnessFactor") == 1.0);
 }
 
-TEST_CASE("reports: 02 an exponent below 0 is no highlight, and what can be read of a material is kept",
+TEST_CASE("reports: 02 an exponent below 0 means no highlight, and what can be read of a material is kept",
           "[assets]") {
   const Scene scene = scene_of("newmtl a\nNs -1.960784\nKd .25 .25 .25\nKs .1 .1 .1\n");
   CHECK(scene.conversion.count(MaterialState::kFailed) == 0);

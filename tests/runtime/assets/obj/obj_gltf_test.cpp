@@ -105,7 +105,7 @@ TEST_CASE("Polygons are taken to triangles, corners are shared, materials are pa
   CHECK(scene.shapes[0].primitives[0].texcoords.empty());
 }
 
-TEST_CASE("Groups and objects are nodes; normals get length 1, or are those of faces", "[assets]") {
+TEST_CASE("Groups and objects become nodes; normals get length 1, or come from faces", "[assets]") {
   const ObjScene scene = read(kTriangle +
                               "vn 0 0 2\nvn 0 0 0\nvn 3 0 4\ng one  two\nf 1//1 2//1 3//1\ng\nf 1//3 "
                               "2//2 3\no \tbox one\t\nf 1 2//2 3\n");
@@ -227,7 +227,7 @@ TEST_CASE("Images: PNG and JPEG as they are, others as PNG, each once", "[assets
   CHECK(transform["scale"].raw() == "[2.0,3.0]");
   CHECK(transform["offset"].raw() == "[0.5,-2.0]");
   CHECK(scene.entry("materials", 0)["normalTexture"]["scale"].raw() == "0.5");
-  // A .gltf refers to the files.
+  // A .gltf file refers to images and buffer by their names, and does not contain them.
   resources.files["a.mtl"] = mtl;
   const AssetConversion beside = gltf_of_obj(MemorySource(obj), "file.obj", {}, resources, "my mesh.bin");
   CHECK(beside.text.find("\"uri\":\"a%20b.png\"") != std::string::npos);
