@@ -135,8 +135,9 @@ RoundTrip round_trip(const MaterialMaps& material, const std::vector<std::string
   };
   require_success(convert(models[0], models[1],
                           "--base-color " + material.base_color + " --metallic " + material.metallic +
-                              " --roughness " + material.roughness + " --input occlusion=" + material.occlusion +
-                              " --format png --type " + type + " --layout specgloss -o specgloss"));
+                              " --roughness " + material.roughness +
+                              " --input occlusion=" + material.occlusion + " --format png --type " + type +
+                              " --layout specgloss -o specgloss"));
   const std::string packed = at("specgloss/specular_glossiness.png");
   const ProcessResult back = require_success(
       convert(models[1], models[0],
