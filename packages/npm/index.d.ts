@@ -27,8 +27,6 @@ export type Measure = 'residual' | 'metallicUncertainty' | 'issues';
 export interface ConverterOptions {
   /** Models that the path visits, in this order. */
   via?: string[];
-  /** What a diffuse color means where the names leave it open. */
-  diffuseConvention?: 'plain' | 'scaled';
   /** F0 of metallic workflows where metallic is 0; from 0 to 0.9. */
   dielectricF0?: number;
   /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */

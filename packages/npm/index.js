@@ -40,7 +40,7 @@ const OWN_NAMES = new Map([...CORE_NAMES].map(([own, core]) => [core, own]));
 const COLORS = new Set(['specular', 'diffuse', 'baseColor']);
 const MEASURES = ['residual', 'metallicUncertainty', 'issues'];
 
-const OWN_OPTIONS = ['via', 'diffuseConvention', 'dielectricF0', 'metallicBias'];
+const OWN_OPTIONS = ['via', 'dielectricF0', 'metallicBias'];
 const CONVERTER_OPTIONS = ['source', 'target', ...OWN_OPTIONS];
 const MAP_OPTIONS = [
   'width', 'firstRow', 'transfer', 'type', 'sourceEncoding', 'targetEncoding', 'badTexels', 'dither', 'measures', 'into',
@@ -153,7 +153,6 @@ const EXPECTED = {
   source: [isText, 'a name'],
   target: [isText, 'a name'],
   via: [isTexts, 'a list of names'],
-  diffuseConvention: [isText, 'a name'],
   dielectricF0: [isNumber, 'a number'],
   metallicBias: [isNumber, 'a number'],
 };

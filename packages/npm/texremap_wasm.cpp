@@ -71,11 +71,9 @@ ConversionRequest request_of(const Field& field) {
   request.target = model_named(field["target"].text());
   if (field.contains("via"))
     request.via = field["via"].list(0, [](const Field& model) { return model.text(); });
-  request.diffuse_convention = named_if(field, "diffuseConvention", kDiffuseConventions);
   if (field.contains("dielectricF0")) request.dielectric_f0 = field["dielectricF0"].number();
   if (field.contains("metallicBias")) request.prior = field["metallicBias"].number();
   request.words.dielectric_f0 = "dielectricF0";
-  request.words.diffuse_convention = "diffuseConvention";
   return request;
 }
 

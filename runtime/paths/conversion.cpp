@@ -133,14 +133,14 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   };
   const auto refuse = [&](const std::string& word) {
     throw usage_error(word + ": has no effect between " + std::string(request.source.word()) + " and " +
-                      std::string(request.target.word()) +
-                      ", whose inputs are translated (remove this option)");
+                      std::string(request.target.word()) + ", whose inputs are translated (remove it)");
   };
   if (*target == Surface::kPrincipled)
     throw usage_error(request.words.target + " " + std::string(request.target.word()) +
                       ": no translation leads to the Principled BSDF (use --to gltf, which Blender imports)");
   if (request.dielectric_f0) refuse(request.words.dielectric_f0);
-  if (request.diffuse_convention) refuse(request.words.diffuse_convention);
+  for (const ModelName* model : {&request.source, &request.target})
+    if (model->diffuse) refuse(std::string(diffuse_convention_name(*model->diffuse)));
   if (!request.via.empty()) refuse("--via");
   name(*choice.source, *source);
   name(*choice.target, *target);
@@ -149,31 +149,30 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   choice.changes_nothing = false;
 }
 
-// Sets the diffuse convention of each end whose model leaves it open. An end gets the requested convention.
-// Without a request, it gets the convention of the other end, so that a round trip changes nothing. If both
-// models have a fixed convention, a request overrides the source's.
+// Sets the diffuse convention of each end to the requested one. An end without a request, whose model leaves
+// it open, gets the convention of the other end, so that a round trip changes nothing.
 void choose_diffuse(const ConversionRequest& request, const WorkflowModel& source,
                     const WorkflowModel& target, ConversionChoice& choice) {
-  std::vector<WorkflowEnd*> open;
-  if (!source.conventions_known) open.push_back(&*choice.source);
-  if (!target.conventions_known) open.push_back(&*choice.target);
-  if (request.diffuse_convention) {
-    if (open.empty()) open.push_back(&*choice.source);
-    for (WorkflowEnd* end : open) set_diffuse(*end, *request.diffuse_convention);
-    return;
-  }
-  if (open.empty()) return;
-  const WorkflowEnd& known = source.conventions_known ? *choice.source : *choice.target;
-  std::string models;
-  for (WorkflowEnd* end : open) {
-    set_diffuse(*end, diffuse_of(known));
-    models += (models.empty() ? "" : " and ") + model_of(*end);
-  }
-  const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
-  choice.assumptions.push_back(std::string("assuming ") + (is_plain ? "plain" : "scaled") + " diffuse for " +
-                               models + (open.size() == 1 ? ", as in " + model_of(known) : "") +
-                               " (otherwise, use " + request.words.diffuse_convention + " " +
-                               (is_plain ? "scaled" : "plain") + ")");
+  WorkflowEnd &from = *choice.source, &to = *choice.target;
+  const bool is_asked = request.source.diffuse || request.target.diffuse;
+  if (request.source.diffuse) set_diffuse(from, *request.source.diffuse);
+  if (request.target.diffuse) set_diffuse(to, *request.target.diffuse);
+  const bool is_source_open = !source.conventions_known && !request.source.diffuse;
+  const bool is_target_open = !target.conventions_known && !request.target.diffuse;
+  if (is_source_open)
+    set_diffuse(from, diffuse_of(to));
+  else if (is_target_open)
+    set_diffuse(to, diffuse_of(from));
+  if (is_asked || (!is_source_open && !is_target_open)) return;
+  const bool is_plain = diffuse_of(from) == DiffuseConvention::kPlain,
+             is_both = is_source_open && is_target_open;
+  const ModelName& open = is_source_open ? request.source : request.target;
+  choice.assumptions.push_back(
+      std::string("assuming ") + (is_plain ? "plain" : "scaled") + " diffuse for " +
+      (is_both ? model_of(from) + " and " + model_of(to)
+               : model_of(is_source_open ? from : to) + ", as in " + model_of(is_source_open ? to : from)) +
+      " (otherwise, use " + (is_source_open ? request.words.source : request.words.target) + " " +
+      (is_plain ? "scaled:" : "plain:") + prefixes_of(open) + std::string(open.word()) + ")");
 }
 
 void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
@@ -194,17 +193,26 @@ void note_alias(const ModelName& given, ConversionChoice& choice) {
 }  // namespace
 
 ModelName model_named(const std::string& word) {
-  if (const std::size_t sign = word.find(':'); sign != std::string::npos)
-    if (const auto kind = value_named(kWorkflowKinds, word.substr(0, sign))) {
+  if (const std::size_t sign = word.find(':'); sign != std::string::npos) {
+    const auto kind = value_named(kWorkflowKinds, word.substr(0, sign));
+    const auto diffuse = value_named(kDiffuseConventions, word.substr(0, sign));
+    if (kind || diffuse) {
       ModelName model = model_named(word.substr(sign + 1));
-      model.workflow = kind;
+      if (kind) model.workflow = kind;
+      if (diffuse) model.diffuse = diffuse;
       return model;
     }
+  }
   if (const ModelAlias* alias = find_alias(word)) return {std::string(alias->model), alias};
   std::string small = word;
   for (char& letter : small)
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   return {find_workflow_model(small) != nullptr ? small : word, nullptr};
+}
+
+std::string prefixes_of(const ModelName& model) {
+  return (model.diffuse ? std::string(diffuse_convention_name(*model.diffuse)) + ":" : "") +
+         (model.workflow ? std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" : "");
 }
 
 std::vector<Parameter> ConversionChoice::sources() const {
@@ -239,7 +247,15 @@ ConversionChoice choose_conversion(const ConversionRequest& request, const Conve
   choice.renderer = renderer_of(target);
   note_alias(request.source, choice);
   note_alias(request.target, choice);
-  if (!from.has_workflow() && !to.has_workflow()) return choice;
+  if (!from.has_workflow() && !to.has_workflow()) {
+    for (const ModelName* model : {&request.source, &request.target})
+      if (model->diffuse)
+        throw usage_error((model == &request.source ? words.source : words.target) + " " +
+                          prefixes_of(*model) + model->name + ": " + model->name +
+                          " has no diffuse without a workflow (write " + prefixes_of(*model) +
+                          "specular:" + model->name + ")");
+    return choice;
+  }
   if (from.name.empty() || request.target.empty())
     throw usage_error((from.name.empty() ? words.source : words.target) + " is required");
   const WorkflowModel source_end = from.workflow(), target_end = to.workflow();

@@ -206,7 +206,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   write_specular(session);
   warned(words,
          "assuming plain diffuse for specular and metallic (otherwise, use "
-         "--diffuse-convention scaled");
+         "--from scaled:specular");
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });

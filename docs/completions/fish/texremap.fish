@@ -46,7 +46,6 @@ complete -c texremap -n '__fish_seen_subcommand_from convert' -l only -x -a 'rou
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l quiet -d 'Print nothing but errors to standard error'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l verbose -d 'Print every warning, the converter, and also measures without a visible effect'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l dielectric-f0 -x -d 'F0 of dielectrics: a number, or estimate to derive it from the maps'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l diffuse-convention -x -a 'plain scaled' -d 'Meaning of the source\'s diffuse: plain'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l metallic-bias -x -d 'How strongly 0 and 1 are preferred: clean'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l output-encoding -x -a 'alpha roughness exponent glossiness squared' -d 'What the roughness results hold'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l factor -x -d 'Multiply this input: roughness or glossiness before it is decoded, colors in linear light by one number or three'

@@ -139,7 +139,7 @@ test('random requests', () => {
     badTexels: () => pick(['keep', 'clamp', 'fail', '', 1]), dither: () => pick([true, false, 1, null]),
     measures: () => pick([[], ['residual'], ['issues', 'metallicUncertainty'], 'residual', [1]]), dielectricF0: () => pick([0, 0.04, 0.9, 1, -1, Infinity]),
     metallicBias: () => pick([0, 1e-5, 1, 2, -1]),
-    into: () => pick([{}, null, { roughness: array() }, { roughness: 1 }, { specular: [array(), array(), array()] }, []]), via: () => pick([[], ['mitsuba/as'], ['x'], 'x', [1]]), diffuseConvention: () => pick(['plain', 'scaled', 'x']),
+    into: () => pick([{}, null, { roughness: array() }, { roughness: 1 }, { specular: [array(), array(), array()] }, []]), via: () => pick([[], ['mitsuba/as'], ['x'], 'x', [1]]),
   };
   let answers = 0;
   for (let i = 0; i < 4000; ++i) {

@@ -132,7 +132,6 @@ ConversionRequest request_of(const Request& request) {
   if (asked.source.empty() || asked.target.empty())
     throw usage_error(std::string(asked.source.empty() ? "source" : "target") + " is required");
   asked.via = member<std::vector<std::string>>(request, "via").value_or(std::vector<std::string>{});
-  asked.diffuse_convention = named_member(request, "diffuse_convention", kDiffuseConventions);
   asked.dielectric_f0 = member<double>(request, "dielectric_f0");
   asked.prior = member<double>(request, "metallic_bias").value_or(kCleanPrior);
   asked.words.all_names = "texremap.models()";

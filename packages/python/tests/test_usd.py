@@ -121,8 +121,8 @@ def test_maps_hold_what_arrays_give(scene):
     stored = np.round(np.asarray(oiio.ImageInput.open(file).read_image("uint8")))[..., 0]
     read = [np.asarray(oiio.ImageInput.open(str(scene.with_name(name))).read_image("uint8"))
             for name in ("diffuse.png", "specular.png")]
-    expected = texremap.convert(source="specular", target="usd-preview-surface", roughness=0.5, diffuse=read[0],
-                                specular=read[1], diffuse_convention="plain", dtype=np.float32)
+    expected = texremap.convert(source="plain:specular", target="usd-preview-surface", roughness=0.5, diffuse=read[0],
+                                specular=read[1], dtype=np.float32)
     assert np.abs(stored / 255 - expected.metallic).max() <= 0.5 / 255 + 1e-6
 
 

@@ -100,10 +100,9 @@ class Converter:
 
     source, target: names from :func:`models`. The target can also be a renderer (``"cycles-5"``), which means
         the closest of its models. ``"specular:mitsuba/ward"`` and ``"metallic:mitsuba/ward"`` are workflows
-        around a BRDF model.
+        around a BRDF model. ``plain:`` or ``scaled:`` before a workflow states what diffuse means: the reflectance, or
+        the reflectance times 1 - max(specular), as in glTF.
     via: models that the path must visit, in this order.
-    diffuse_convention: ``"plain"`` or ``"scaled"`` (as in glTF: times 1 - max(specular)), if the model does not
-        define it.
     dielectric_f0: F0 of dielectrics in metallic workflows, 0 to 0.9 (default: the model's own, 0.04 for glTF).
     metallic_bias: how strongly a conversion to metallic prefers 0 and 1. It is 0 to 1: 1e-6 for clean maps, 1e-5
         for noisy maps.
@@ -115,12 +114,12 @@ class Converter:
     """
 
     def __init__(self, source: str, target: str, *, via: Optional[Iterable[str]] = None,
-                 diffuse_convention: Optional[str] = None, dielectric_f0: Optional[float] = None,
-                 metallic_bias: Optional[float] = None, converters: Union[str, "os.PathLike[str]", None] = None,
+                 dielectric_f0: Optional[float] = None, metallic_bias: Optional[float] = None,
+                 converters: Union[str, "os.PathLike[str]", None] = None,
                  instructions: Optional[str] = None) -> None:
         request = {
             "source": source, "target": target, "via": None if via is None else list(via),
-            "diffuse_convention": diffuse_convention, "dielectric_f0": dielectric_f0, "metallic_bias": metallic_bias,
+            "dielectric_f0": dielectric_f0, "metallic_bias": metallic_bias,
             "converters": None if converters is None else os.fspath(converters), "instructions": instructions,
         }
         self._hold(_core.Conversion(request))

@@ -69,11 +69,12 @@ def _workflow_translation(to):
     names = {"specular": {"diffuseColor": "diffuse", "specularColor": "specular"},
              "metallic": {"diffuseColor": "base_color", "metallic": "metallic"}}
     start = "specular" if to == "metallic" else "metallic"
-    ends = ("specular", "usd-preview-surface") if to == "metallic" else ("usd-preview-surface", "specular")
+    ends = (("plain:specular", "plain:usd-preview-surface") if to == "metallic"
+            else ("plain:usd-preview-surface", "plain:specular"))
 
     def translate(given):
         f0 = ((1 - float(np.ravel(given["ior"])[0])) / (1 + float(np.ravel(given["ior"])[0]))) ** 2
-        converter = Converter(*ends, diffuse_convention="plain", dielectric_f0=min(f0, 0.9))
+        converter = Converter(*ends, dielectric_f0=min(f0, 0.9))
         count = max(np.size(given[name]) // (1 if name == "metallic" else 3) for name in names[start])
         arrays = {}
         for name, word in names[start].items():

@@ -21,18 +21,22 @@ struct ModelName {
   const ModelAlias* alias = nullptr;  // the alias that the user typed
   // If set, a BRDF model has a layer of this kind above it.
   std::optional<WorkflowKind> workflow = std::nullopt;
+  // The meaning of its diffuse color. If unset, the model's own, or that of the other end.
+  std::optional<DiffuseConvention> diffuse = std::nullopt;
   bool empty() const noexcept { return name.empty(); }
   // Returns the alias if there is one, otherwise the name.
   std::string_view word() const noexcept { return alias != nullptr ? alias->name : std::string_view(name); }
 };
-// Returns the meaning of `word`, such as `mitsuba/ggx` or `metallic:mitsuba/ggx`. Aliases and workflows
-// ignore case. Other words mean themselves.
+// Returns the meaning of `word`, such as `mitsuba/ggx`, `metallic:mitsuba/ggx` or `plain:gltf`. Aliases and
+// workflows ignore case. Other words mean themselves.
 ModelName model_named(const std::string& word);
+// Returns the prefixes of a model as a user types them, such as `plain:specular:`.
+std::string prefixes_of(const ModelName& model);
 
 // These words name the parts of a request in messages.
 struct ConversionWords {
   std::string source = "source", target = "target", via = "via";
-  std::string dielectric_f0 = "dielectric_f0", diffuse_convention = "diffuse_convention";
+  std::string dielectric_f0 = "dielectric_f0";
   std::string all_names = "models()";  // how to list every name
 };
 
@@ -40,8 +44,7 @@ struct ConversionRequest {
   // Each is a BRDF model (`mitsuba/ward`) or a workflow (`gltf`). The target may also be a renderer, which
   // means its closest model.
   ModelName source, target;
-  std::vector<std::string> via;  // models that the path visits, in this order
-  std::optional<DiffuseConvention> diffuse_convention;
+  std::vector<std::string> via;         // models that the path visits, in this order
   std::optional<double> dielectric_f0;  // for metallic workflows, 0 to 0.9; by default the model's F0
   double prior = kCleanPrior;           // prior of the projection, towards a metallic of 0 and 1
   // If true and one end is OpenPBR or standard_surface, all inputs of the surfaces are translated. Otherwise,

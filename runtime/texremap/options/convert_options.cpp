@@ -184,7 +184,7 @@ Reader<std::vector<ColorSpaceWord>> color_spaces() {
 Reader<ModelName> model_name() {
   return {[](const std::string& option, const std::string& word) {
             ModelName model = model_named(word);
-            if (model.workflow && model.empty())
+            if (model.empty() && !prefixes_of(model).empty())
               throw usage_error(option + ": no model in '" + word + "' (write " + word + "mitsuba/ggx)");
             return model;
           },
@@ -396,6 +396,8 @@ void add_output_options(Command& command, ConvertOptions& options) {
   command.retire("--resume", "is no longer needed: texremap skips what is done (remove this option)");
   command.retire(
       "--root", "was removed (give the folder before the assets: texremap convert FOLDER chair.gltf -o out)");
+  command.retire("--diffuse-convention",
+                 "was removed (write plain: or scaled: before the model: --from plain:gltf-specgloss)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
   for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
@@ -434,12 +436,6 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       .add_option("--dielectric-f0 VALUE", options.dielectric_f0, f0_choice(),
                   "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the "
                   "metallic model, 0.04)")
-      ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
-  command
-      .add_option(
-          "--diffuse-convention NAME", options.diffuse_convention, one_of(kDiffuseConventions, "convention"),
-          "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as "
-          "in glTF; default: as in the source model)")
       ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
   command.option_group("Rare: how metallic is found");
   command
@@ -583,8 +579,8 @@ std::string result_options_text(const ConvertOptions& options) {
     if ((option.tags & kChangesResults) != 0)
       add(option.name + (option.words.empty() ? "" : " " + joined(option.words, " ")));
   const auto add_workflow = [&](const std::string& option, const ModelName& model) {
-    if (model.workflow)
-      add(option + " " + std::string(name_of(kWorkflowKinds, *model.workflow)) + ":" + model.name);
+    if (const std::string prefixes = prefixes_of(model); !prefixes.empty())
+      add(option + " " + prefixes + model.name);
   };
   add_workflow("--from", options.from);
   add_workflow("--to", options.to);

@@ -107,7 +107,6 @@ struct ConvertOptions {
   bool resample = false;
 
   F0Choice dielectric_f0;
-  std::optional<DiffuseConvention> diffuse_convention;
   double prior = kCleanPrior;
 
   std::filesystem::path output;

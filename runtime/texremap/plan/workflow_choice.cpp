@@ -7,9 +7,7 @@ namespace remap {
 namespace {
 
 // Returns the words of the command line.
-ConversionWords option_words() {
-  return {"--from", "--to", "--via", "--dielectric-f0", "--diffuse-convention", "texremap list"};
-}
+ConversionWords option_words() { return {"--from", "--to", "--via", "--dielectric-f0", "texremap list"}; }
 
 void require_estimable(const ConversionChoice& choice) {
   if (kind_of(*choice.source) == WorkflowKind::kSpecular && choice.is_to_metallic()) return;
@@ -46,7 +44,6 @@ ConversionChoice workflow_choice(const ConvertOptions& options) {
   request.source = options.from;
   request.target = options.to;
   request.via = options.via;
-  request.diffuse_convention = options.diffuse_convention;
   request.prior = options.prior;
   request.translates_surfaces = true;
   request.words = option_words();
@@ -88,6 +85,11 @@ ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFi
   refuse_with_warp(options, kNotWithWarp, warp);
   require_model_of_fit(warp, "--from", options.from.name, fit.source_model);
   require_model_of_fit(warp, "--to", options.to.name, fit.template_model);
+  for (const ModelName* model : {&options.from, &options.to})
+    if (model->diffuse)
+      throw usage_error(prefixes_of(*model) + model->name + ": maps of the warp " + warp +
+                        " have plain diffuse (remove " +
+                        std::string(diffuse_convention_name(*model->diffuse)) + ":)");
   if (options.to.workflow)
     throw usage_error("--to: results of the warp " + warp +
                       " have the specular workflow (remove this option)");
