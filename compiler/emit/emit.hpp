@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "converter/converter_data.hpp"
-#include "lower/any_fit.hpp"
 #include "lower/fit.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 

@@ -8,8 +8,8 @@
 
 #include "converter/converter_fields.hpp"
 #include "core/json_field.hpp"
-#include "lower/any_fit.hpp"
 #include "lower/fit.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 

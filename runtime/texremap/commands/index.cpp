@@ -11,8 +11,8 @@
 #include "core/stopwatch.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/asset_jobs.hpp"
+#include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
-#include "texremap/plan/written_names.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {

@@ -163,4 +163,6 @@ void note_given(const Command& command, ConvertOptions& options);
 // Returns all options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
 
+inline constexpr const char* kProgram = "texremap";  // begins every message
+
 }  // namespace remap

@@ -11,7 +11,7 @@
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/conversion_request.hpp"
-#include "texremap/run/job_work.hpp"
+#include "texremap/run/run_jobs.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/target_plan.hpp"
