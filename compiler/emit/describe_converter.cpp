@@ -1,7 +1,6 @@
 // This file describes a converter of width and specular.
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "emit/emit.hpp"
 #include "emit/header_data.hpp"
 #include "remap/converter.hpp"
 #include "remap/error.hpp"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "converter/converter_data.hpp"
 #include "lower/fit.hpp"
 #include "lower/fit_file.hpp"
 

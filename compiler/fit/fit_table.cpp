@@ -1,7 +1,6 @@
 #include "fit/fit_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -11,7 +10,6 @@
 #include "core/number_text.hpp"
 #include "fit/parametric/parametric.hpp"
 #include "fit/svr/svr.hpp"
-#include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"

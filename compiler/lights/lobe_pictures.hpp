@@ -2,7 +2,6 @@
 // specular, and smooth in alpha. So these pictures give the picture of every material with this lobe.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <set>
 
-#include "core/number_text.hpp"
 #include "look/image.hpp"
 #include "remap/error.hpp"
 

@@ -20,7 +20,6 @@
 #include "assets/mtl/mtl_material.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {

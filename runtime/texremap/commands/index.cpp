@@ -6,7 +6,6 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "texremap/commands/commands.hpp"

@@ -14,7 +14,6 @@
 #include "remap/conversion.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
-#include "remap/surface.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/options/part.hpp"
 #include "texremap/options/used_converters.hpp"

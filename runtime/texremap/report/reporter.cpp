@@ -1,7 +1,6 @@
 #include "texremap/report/reporter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 

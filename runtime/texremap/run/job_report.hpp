@@ -12,7 +12,6 @@
 #include "stages/dielectric_f0.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/run/planned_roles.hpp"
-#include "texture/texture_pass.hpp"
 
 namespace remap {
 
@@ -52,10 +51,10 @@ struct JobReport {
   std::vector<std::filesystem::path> left_behind;  // maps of the set that are neither read nor copied
   Transfer specular_transfer = Transfer::kLinear;
   ColorNotes colors;  // for maps of integers, or if a file or the user states the color space
-  std::optional<DielectricF0> estimated_f0;                // only from a specular to a metallic workflow
-  std::optional<TranslationEffect> effect;                 // only for a translation between surfaces
-  std::vector<PlannedRole> plan;                           // plan of a dry run; for tiles, the first tile's
-  bool has_compression_level = false;                      // true if any result has one
+  std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
+  std::optional<TranslationEffect> effect;   // only for a translation between surfaces
+  std::vector<PlannedRole> plan;             // plan of a dry run; for tiles, the first tile's
+  bool has_compression_level = false;        // true if any result has one
   MapStatistics statistics;
 
   std::vector<AssetMaterial> materials;  // materials of assets
@@ -111,8 +110,8 @@ void fields(Archive& archive, JobReport& report) {
   archive(report.name, report.tiles, report.inputs, report.results, report.copies, report.warnings,
           report.failure, report.failure_code, report.was_done, report.seconds, report.bytes_read,
           report.bytes_written, report.left_behind, report.specular_transfer, report.colors,
-          report.estimated_f0, report.effect, report.plan, report.has_compression_level,
-          report.statistics, report.materials);
+          report.estimated_f0, report.effect, report.plan, report.has_compression_level, report.statistics,
+          report.materials);
 }
 
 }  // namespace remap

@@ -9,7 +9,6 @@
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/version.hpp"
-#include "sets/folder_walk.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/run/run_jobs.hpp"
 #include "texture/content_hash.hpp"
