@@ -7,7 +7,7 @@
 
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/linear_values.hpp"
+#include "convert/transfer.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
