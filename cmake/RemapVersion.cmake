@@ -17,7 +17,7 @@ function(remap_macro_value variable header macro)
   set(${variable} "${value}" PARENT_SCOPE)
 endfunction()
 
-# remap_version_text(TARGET): TARGET gets command_line/version_text.hpp. To be called after the libraries of the runtime
+# remap_version_text(TARGET): TARGET gets version_text() of command_line/run_app.hpp. To be called after the libraries of the runtime
 # are found.
 function(remap_version_text target)
   set(sets "")

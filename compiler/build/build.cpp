@@ -23,7 +23,7 @@
 #include "lower/lower.hpp"
 #include "measure/material_sample.hpp"
 #include "remap/error.hpp"
-#include "renderer/timed_renderer.hpp"
+#include "renderer/renderer.hpp"
 #include "table/table.hpp"
 
 namespace remap {

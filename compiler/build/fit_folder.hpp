@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "build/reach_record.hpp"
-#include "lower/any_fit.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 

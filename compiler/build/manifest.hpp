@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "lower/any_fit.hpp"
+#include "lower/fit_file.hpp"
 #include "measure/objective.hpp"
 
 namespace remap {

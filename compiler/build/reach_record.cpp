@@ -3,8 +3,8 @@
 #include <array>
 
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "core/number_text.hpp"
-#include "core/read_file.hpp"
 #include "table/csv.hpp"
 #include "table/table.hpp"
 

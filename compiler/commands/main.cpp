@@ -2,7 +2,6 @@
 // into the parameters of the other.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "command_line/version_text.hpp"
 #include "commands/commands.hpp"
 
 int main(int argc, char** argv) {

@@ -18,7 +18,7 @@
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "report/set_preview.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "worker/renderer_options.hpp"

@@ -4,7 +4,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "renderer/renderer.hpp"
 #include "worker/renderer_options.hpp"
 

@@ -1,13 +1,29 @@
 // This file describes a converter of width and specular.
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "emit/convention_text.hpp"
-#include "emit/emit.hpp"
 #include "emit/header_data.hpp"
+#include "remap/converter.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
 namespace {
+
+// Returns words for a comment in the header.
+const char* meaning_of(RoughnessEncoding encoding) {
+  switch (encoding) {
+    case RoughnessEncoding::kAlpha:
+      break;
+    case RoughnessEncoding::kRoughness:
+      return "perceptual roughness, square root of the microfacet width, (0, 1]";
+    case RoughnessEncoding::kExponent:
+      return "Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0";
+    case RoughnessEncoding::kGlossiness:
+      return "1 - square root of the microfacet width, [0, 1)";
+    case RoughnessEncoding::kSquared:
+      return "square of the microfacet width, (0, 1]";
+  }
+  return "microfacet width, (0, 1]";
+}
 
 std::string error_text(const std::string& name, const ErrorFigures& figures) {
   return name + " rms " + two_digits(figures.rms) + ", 99 % " + two_digits(figures.p99) + ", max " +
@@ -66,6 +82,8 @@ HeaderEnd end_of(const ModelSide& side) {
 }
 
 }  // namespace
+
+std::string two_digits(double error) { return number_text(rounded_up(error, 2)); }
 
 const ConverterData& require_converter(const Fit& fit) {
   if (fit.converter) return *fit.converter;

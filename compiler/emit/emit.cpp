@@ -6,7 +6,7 @@
 
 #include "emit/header_data.hpp"
 #include "emit/languages.hpp"
-#include "materials/materials.hpp"
+#include "materials/description.hpp"
 
 namespace remap {
 

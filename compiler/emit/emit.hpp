@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "converter/converter_data.hpp"
-#include "lower/any_fit.hpp"
 #include "lower/fit.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "emit/mapping_code.hpp"
+#include "emit/header_data.hpp"
 #include "formula/text_template.hpp"
 #include "remap/version.hpp"
 

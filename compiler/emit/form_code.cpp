@@ -3,7 +3,7 @@
 
 #include "core/number_text.hpp"
 #include "emit/converter_formula.hpp"
-#include "emit/mapping_code.hpp"
+#include "emit/header_data.hpp"
 #include "formula/text_template.hpp"
 
 namespace remap {

@@ -1,7 +1,7 @@
 // This file writes conversions between workflows as C++. It takes the code of runtime/stages/code and adds
 // the conventions of both ends.
 #include "core/number_text.hpp"
-#include "emit/mapping_code.hpp"
+#include "emit/header_data.hpp"
 #include "formula/text_template.hpp"
 #include "reference/workflow_conversion.hpp"
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "lower/fit.hpp"
 #include "lower/interpreter.hpp"
 
 namespace remap {

@@ -1,7 +1,6 @@
 #include "fit/fit_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -9,7 +8,8 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "lower/interpreter.hpp"
+#include "fit/parametric/parametric.hpp"
+#include "fit/svr/svr.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
@@ -96,6 +96,17 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
     return fit;
   }
   return compare_forms(fit, split, pictures.get(), progress, compared);
+}
+
+Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
+                    const FitProgress& progress) {
+  if (options.kind == "parametric") return fit_parametric_kind(rows, domain, options.form);
+  if (options.kind == "svr") return fit_svr(rows, {options.seed, options.jobs, {}, {}}, progress);
+  if (options.kind != "mlp") throw usage_error("unknown kind of fit '" + std::string(options.kind) + "'");
+  MlpOptions mlp = options.mlp;
+  mlp.seed = options.seed;
+  mlp.jobs = options.jobs;
+  return fit_mlp(rows, mlp, progress);
 }
 
 }  // namespace remap

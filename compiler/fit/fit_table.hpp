@@ -1,19 +1,41 @@
-// This file fits a table. It splits the rows, fits them, computes errors on the held-out rows, and records
-// how the fit was made.
+// This file fits a table. It splits the rows, fits them by one of the kinds, computes errors on the held-out
+// rows, and records how the fit was made. Each kind has a folder with its regression, and one line in
+// fit_kind().
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fit/comparison.hpp"
-#include "fit/kinds.hpp"
+#include "fit/network/mlp.hpp"
 #include "lower/fit.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
 namespace remap {
+
+struct FitOptions {
+  std::string id;          // if empty, `<source>_to_<target>` from the table
+  std::string_view kind;   // one of kFitKinds; if empty, compare_forms() chooses
+  std::uint64_t seed = 1;  // seed of the split and of the regression
+  unsigned jobs = 0;       // threads; 0: one per core. Results do not depend on it
+  std::string form;        // form of the parametric kind; if empty, the paper's
+  MlpOptions mlp;          // its seed and jobs are replaced by those above
+  double held_out_fraction = 0.2;
+  bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
+};
+
+// These are the regressions that a user can choose. If the user chooses none, forms are compared
+// (comparison.hpp).
+inline constexpr std::array<std::string_view, 3> kFitKinds = {"parametric", "svr", "mlp"};
+
+// Fits the rows below the limits of the target by the kind of the options. The curves must be sound in
+// `domain`. Throws kUsage for a kind that is not in the list, and the errors of the regression.
+Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
+                    const FitProgress& progress = {});
 
 // Fits `table`. `bytes` is its file, whose SHA-256 the fit records. Throws kInput if the table does not name
 // its models or cannot be fitted (require_fittable), kUsage for an invalid id, and the errors of the

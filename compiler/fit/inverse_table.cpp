@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/number_text.hpp"
-#include "fit/fit_table.hpp"
 #include "lower/interpreter.hpp"
 #include "lower/inverse.hpp"
 #include "remap/version.hpp"

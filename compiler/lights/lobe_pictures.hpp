@@ -2,7 +2,6 @@
 // specular, and smooth in alpha. So these pictures give the picture of every material with this lobe.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,6 @@ class StudyLights {
 
   std::size_t environment_count() const { return environments_.size(); }
   std::size_t count() const { return environments_.size() + angles_.size(); }
-  std::size_t point_light() const { return environments_.size(); }  // index of the first point light
   const std::vector<Environment>& environments() const { return environments_; }
   int resolution() const { return sampling_.resolution; }
   const SphereSampling& sampling() const { return sampling_; }

@@ -2,7 +2,6 @@
 // shape, and the domain is a box inside of it.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <vector>
 

@@ -113,6 +113,11 @@ struct Fit {
 };
 
 // Returns the mean of the compared spheres' structural similarities, or nothing if no spheres were compared.
-std::optional<double> mean_ssim(const Fit& fit);
+inline std::optional<double> mean_ssim(const Fit& fit) {
+  if (fit.ssim.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const auto& [alpha, ssim] : fit.ssim) sum += ssim;
+  return sum / static_cast<double>(fit.ssim.size());
+}
 
 }  // namespace remap

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "converter/converter_fields.hpp"
 #include "core/json_field.hpp"
-#include "lower/any_fit.hpp"
 #include "lower/fit.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 

@@ -5,13 +5,22 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
 
-#include "lower/any_fit.hpp"
 #include "lower/fit.hpp"
+#include "lower/workflow_fit.hpp"
 #include "remap/error.hpp"
+#include "remap/warp.hpp"
 #include "stages/warp_json.hpp"
 
 namespace remap {
+
+// An AnyFit is a fit of any type that a file can contain.
+using AnyFit = std::variant<Fit, WorkflowFit, WarpMapFit>;
+
+inline const std::string& fit_id(const AnyFit& fit) {
+  return std::visit([](const auto& any) -> const std::string& { return any.id; }, fit);
+}
 
 // Returns the JSON text of a fit, which ends with a newline. Throws kNumeric if a number is not finite, and
 // the errors of require_valid().

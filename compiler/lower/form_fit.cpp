@@ -6,8 +6,6 @@
 
 #include <Eigen/Dense>
 
-#include "core/number_text.hpp"
-#include "lower/evaluate.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 

@@ -3,17 +3,13 @@
 // depends on specular, the largest channel decides, because it is the visible highlight.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "converter/compact_form.hpp"
 #include "reference/network.hpp"
-#include "remap/model.hpp"
 
 namespace remap {
 

@@ -1,5 +1,5 @@
 // This file describes whole materials of two models, and the statements that translate one model into the
-// other.
+// other. Translations are written as C++, as a Python module and as node graphs of MaterialX.
 //
 // A model is a list of inputs with their defaults (descriptions/models.txt). A translation is a file of
 // statements, descriptions/FROM_to_TO.txt:
@@ -64,5 +64,20 @@ Translation parse_translation(std::string_view text, const std::string& name, co
 
 // Returns the descriptions that are compiled into the program.
 const MaterialLibrary& material_library();
+
+// Returns a C++17 header: a struct for each model, a function for each translation, and translate_texels()
+// for rows of maps.
+std::string materials_header(const MaterialLibrary& library);
+
+// Returns a Python module that needs only NumPy: MODELS, TRANSLATIONS, IGNORED, and a function for each
+// translation.
+std::string materials_module(const MaterialLibrary& library);
+
+// Returns node definitions. MaterialX' ShaderTranslator finds them by the names of their nodes. Models
+// without a node in MaterialX (Blender's) are left out.
+std::string materials_graphs(const MaterialLibrary& library);
+
+// Returns the lines of a comment in a language whose comments begin with `mark`.
+std::string commented(const std::string& comment, const std::string& indent, const std::string& mark);
 
 }  // namespace remap

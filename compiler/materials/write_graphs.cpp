@@ -1,7 +1,7 @@
 // This file writes node graphs of MaterialX for the translations of whole materials.
 #include "core/number_text.hpp"
 #include "formula/graph_writer.hpp"
-#include "materials/materials.hpp"
+#include "materials/description.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

@@ -4,7 +4,7 @@
 
 #include "core/number_text.hpp"
 #include "formula/text_template.hpp"
-#include "materials/materials.hpp"
+#include "materials/description.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

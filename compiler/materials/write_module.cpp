@@ -1,7 +1,7 @@
 // This file writes the Python module with the translations of whole materials.
 #include "core/number_text.hpp"
 #include "formula/text_template.hpp"
-#include "materials/materials.hpp"
+#include "materials/description.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

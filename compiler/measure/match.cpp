@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "measure/interpolation.hpp"
 #include "measure/picture_sums.hpp"
+#include "measure/target_bank.hpp"
 
 namespace remap {
 namespace {

@@ -1,7 +1,6 @@
 #include "measure/probe.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

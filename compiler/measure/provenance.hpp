@@ -2,8 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "measure/picture_taker.hpp"
 #include "measure/sweep_options.hpp"

@@ -1,10 +1,6 @@
 // This file matches every sample of the source's parameters and returns the table.
 #pragma once
 
-#include <atomic>
-#include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -10,7 +10,6 @@
 #include "measure/objective.hpp"
 #include "measure/parameter_roles.hpp"
 #include "measure/probe.hpp"
-#include "renderer/renderer.hpp"
 
 namespace remap {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/interpolation.hpp"
 #include "measure/picture_sums.hpp"
 
 namespace remap {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "measure/family_probe.hpp"
-#include "measure/interpolation.hpp"
 #include "measure/probe.hpp"
+#include "measure/target_bank.hpp"
 
 namespace remap {
 namespace {

@@ -1,14 +1,12 @@
 // This file renders the built-in models in the sweep scene, in double precision. The only approximation is
 // the average over a pixel.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <numbers>
 
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "look/brdf_models.hpp"
 #include "remap/error.hpp"

@@ -5,6 +5,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -131,6 +132,14 @@ Range canonical_widths(RoughnessEncoding convention, const Range& own) {
 
 ModelSide model_side(const ModelDescription& model) {
   return {model.name, model.roughness, model.parameter(ParameterRole::kSpecular).name};
+}
+
+Image TimedRenderer::render(const Material& material, const Scene& scene) const {
+  const Stopwatch stopwatch;
+  Image image = inner_.render(material, scene);
+  seconds_ += stopwatch.seconds();
+  ++pictures_;
+  return image;
 }
 
 }  // namespace remap

@@ -11,7 +11,6 @@
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
-#include "table/folds.hpp"
 #include "table/split.hpp"
 
 namespace remap {

@@ -8,7 +8,6 @@
 
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "core/scratch_folder.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -7,7 +7,7 @@
 
 #include "core/base64.hpp"
 #include "core/files.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/shaded_map.hpp"

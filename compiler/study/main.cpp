@@ -1,7 +1,6 @@
 // This is remap-study. It measures the accuracy of converters, under environment maps and between workflows.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "command_line/version_text.hpp"
 #include "study/studies.hpp"
 
 int main(int argc, char** argv) {

@@ -7,7 +7,7 @@
 #include "build/fit_folder.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "remap/error.hpp"
 #include "table/table_file.hpp"
 

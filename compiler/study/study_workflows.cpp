@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "build/fit_folder.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "study/studies.hpp"
 #include "study/study_options.hpp"
 #include "study/workflows.hpp"

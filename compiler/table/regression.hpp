@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "lower/fit.hpp"
 #include "table/table.hpp"
 
 namespace remap {

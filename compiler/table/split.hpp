@@ -49,4 +49,7 @@ ErrorFigures error_figures(std::vector<double> errors);
 // Formats an error with two significant digits, rounded up in magnitude: `7.2e-04`, or `0` for 0.
 std::string error_text(double error);
 
+// Draws `count` of `rows` (all if there are fewer) by `seed` and keeps their order.
+std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed);
+
 }  // namespace remap

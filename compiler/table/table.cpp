@@ -7,9 +7,9 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "core/read_file.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -2,10 +2,8 @@
 // Sweeps write it and fits read it, as a CSV file with comments that record how it was made.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -5,7 +5,7 @@
 
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "remap/version.hpp"
 #include "warp/warp.hpp"
 

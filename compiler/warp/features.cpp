@@ -1,6 +1,5 @@
 #include "warp/features.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

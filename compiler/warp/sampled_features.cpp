@@ -1,6 +1,5 @@
 // This file computes features from samples, for every model and table without a closed formula.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/errors.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.hpp"
 #include "core/report_text.hpp"
 #include "warp/decompositions.hpp"
 #include "warp/warp_table.hpp"

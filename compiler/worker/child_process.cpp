@@ -17,9 +17,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/input_file.hpp"
 #include "core/owner_tag.hpp"
 #include "core/plain_text.hpp"
-#include "core/read_file.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -10,8 +10,8 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "core/plain_text.hpp"
-#include "core/read_file.hpp"
 #include "texture/image_library.hpp"
 
 // Messages use this name for the program.

@@ -12,7 +12,6 @@
 #include <variant>
 
 #include "converter/converter_fields.hpp"
-#include "core/error_kind.hpp"
 #include "core/errors.hpp"
 #include "core/json_field.hpp"
 #include "paths/converter_file.hpp"

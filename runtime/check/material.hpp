@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scratch_folder.hpp"
+#include "core/files.hpp"
 #include "sets/naming.hpp"
 #include "texture/image_layout.hpp"
 

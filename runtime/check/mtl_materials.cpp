@@ -8,8 +8,8 @@
 #include "assets/mtl/mtl_material.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"
+#include "core/input_file.hpp"
 #include "core/plain_text.hpp"
-#include "core/read_file.hpp"
 #include "sets/folder_walk.hpp"
 
 namespace remap {

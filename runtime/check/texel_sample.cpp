@@ -6,7 +6,6 @@
 
 #include "check/material.hpp"
 #include "core/input_file.hpp"
-#include "core/read_file.hpp"
 #include "texture/image_library.hpp"
 #include "texture/image_reader.hpp"
 

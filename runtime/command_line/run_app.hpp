@@ -27,4 +27,9 @@ void print_message(const std::string& program, const std::string& message);
 // Returns true if standard error is a terminal.
 bool terminal_watches_errors() noexcept;
 
+// Returns the version on the first line. Then follow compiler and kind of build, the included converters, and
+// the libraries with the versions that this build was compiled against. `more_libraries` are used only by
+// this program: "Name 1.2, Name 3".
+std::string version_text(const std::string& program, const std::string& more_libraries = "");
+
 }  // namespace remap

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "convert/interleaved.hpp"
-#include "convert/linear_values.hpp"
+#include "convert/transfer.hpp"
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 

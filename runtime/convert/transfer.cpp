@@ -1,3 +1,5 @@
+#include "convert/transfer.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <limits>
 
 #include "convert/levels.hpp"
-#include "convert/linear_values.hpp"
 #include "remap/pixels.hpp"
 
 namespace remap {

@@ -1,4 +1,5 @@
-// This file makes errors of each kind. They are thrown as `throw input_error("place: what is wrong (fix)")`.
+// This file makes errors of each kind, and names the kinds for hosts in other languages. They are thrown as
+// `throw input_error("place: what is wrong (fix)")`.
 #pragma once
 
 #include <cerrno>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "remap/error.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 
@@ -42,5 +44,11 @@ inline int exit_code(const Error& error) noexcept {
   if (error.kind() == ErrorKind::kUsage) return 2;
   return is_retryable(error.system_code()) ? 75 : 1;
 }
+
+inline constexpr NamedValues<ErrorKind, 5> kErrorKinds = {{{ErrorKind::kUsage, "usage"},
+                                                           {ErrorKind::kInput, "input"},
+                                                           {ErrorKind::kOutput, "output"},
+                                                           {ErrorKind::kNumeric, "numeric"},
+                                                           {ErrorKind::kInterrupted, "interrupted"}}};
 
 }  // namespace remap

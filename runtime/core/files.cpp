@@ -69,11 +69,12 @@ void remove_unfinished(const fs::path& folder) {
 
 fs::path unfinished_name(const fs::path& path) {
   remove_abandoned_once(folder_of(path));
-  constexpr std::size_t kLongestName = 255;  // in bytes, on most file systems
+  constexpr std::size_t kLongestFileName = 255;  // in bytes, on most file systems
   const std::string end =
       std::string(kUnfinished) + owner_tag() + "-" + random_letters() + path.extension().string();
-  const std::string stem =
-      end.size() < kLongestName ? cut(path.stem().string(), kLongestName - 1 - end.size()) : std::string();
+  const std::string stem = end.size() < kLongestFileName
+                               ? cut(path.stem().string(), kLongestFileName - 1 - end.size())
+                               : std::string();
   return path.parent_path() / ("." + stem + end);
 }
 
@@ -207,6 +208,12 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   const std::filesystem::path canonical_a = std::filesystem::weakly_canonical(a, ignored),
                               canonical_b = std::filesystem::weakly_canonical(b, ignored);
   return !canonical_a.empty() && canonical_a == canonical_b;
+}
+
+ScratchFolder::ScratchFolder(const std::string& prefix) {
+  std::string name = (fs::temp_directory_path() / (prefix + "-XXXXXX")).string();
+  if (!create_scratch_folder(name)) throw output_error(name + ": cannot be created: " + std::strerror(errno));
+  path_ = name;
 }
 
 }  // namespace remap

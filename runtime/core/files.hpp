@@ -8,8 +8,6 @@
 #include <string_view>
 
 #include "core/input_file.hpp"
-#include "core/open_file.hpp"
-#include "core/read_file.hpp"
 #include "core/system.hpp"
 
 namespace remap {
@@ -108,5 +106,23 @@ std::filesystem::path installed(const std::filesystem::path& below);
 
 // Creates the folder of `path` if it does not exist. Throws kOutput on failure.
 void create_parent(const std::filesystem::path& path);
+
+// A ScratchFolder is a folder `PREFIX-XXXXXX` in the system's temporary folder. Its destructor removes it
+// with all its files. The constructor throws kOutput if it cannot make the folder.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::string& prefix);
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace remap

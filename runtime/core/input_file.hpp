@@ -1,4 +1,4 @@
-// This file opens a file once, for everything that is read from it.
+// This file reads files, either whole, or from one opening for everything that is read.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/open_file.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 
@@ -79,5 +79,14 @@ class InputLines {
   std::uintmax_t end_;
   std::size_t number_ = 0;
 };
+
+// Limits the bytes that read_file() reads by default. This is 100 times the size of the largest text file of
+// remap, and fits into the memory of any machine that runs it.
+inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
+
+// Returns the whole file as bytes. Besides regular files it reads only pipes that the caller's shell has
+// opened (/dev/stdin, /dev/fd/N, /proc/self/fd/N), because such pipes end with their writer. Throws kInput
+// with the system's reason if the file cannot be read, and for more than `largest` bytes.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFile);
 
 }  // namespace remap

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <random>
 
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "core/system.hpp"
 #include "remap/error.hpp"
 

@@ -19,13 +19,10 @@ inline std::string fixed(double value, int decimals, int width = 0) {
   return text.data();
 }
 
-// These functions pad `text` with spaces to `width` characters, on the right (padded) or left (padded_left).
+// Pads `text` with spaces on the right to `width` characters.
 inline std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text;
-}
-inline std::string padded_left(const std::string& text, std::size_t width) {
-  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 
 // Returns a fraction as `12 %`, rounded to two digits.

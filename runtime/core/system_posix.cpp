@@ -12,7 +12,6 @@
 #include <unistd.h>
 #include <wctype.h>
 
-#include "core/open_file.hpp"
 #include "core/owner_tag.hpp"
 #include "core/system.hpp"
 

@@ -12,7 +12,6 @@
 #include <psapi.h>  // this must follow windows.h
 // clang-format on
 
-#include "core/open_file.hpp"
 #include "core/system.hpp"
 
 namespace remap {

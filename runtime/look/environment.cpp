@@ -7,8 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/number_text.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -7,7 +7,6 @@
 #include "assets/gltf/gltf_workflow.hpp"
 #include "assets/gltf/material_textures.hpp"
 #include "assets/maps/map_pixels.hpp"
-#include "core/errors.hpp"
 #include "core/json_spans.hpp"
 #include "look/asset_reader.hpp"
 

@@ -68,7 +68,6 @@ constexpr std::size_t kHalves = 2;
 struct Mixture {
   std::array<double, 2> alphas{};                       // alphas of the GGX lobes
   std::array<std::uint32_t, kTechniqueCount> counts{};  // number of samples of each technique in one half
-  double half_count = 0.0;                              // sum of `counts`
 
   // Returns the expected density of samples of one half at a direction, per steradian.
   double density(const LocalGeometry& g) const {
@@ -88,11 +87,9 @@ Mixture mixture_for(const auto& materials, int samples) {
     mixture.alphas[0] = std::min(mixture.alphas[0], material.alpha);
     mixture.alphas[1] = std::max(mixture.alphas[1], material.alpha);
   }
-  for (std::size_t t = 0; t < kTechniqueCount; ++t) {
+  for (std::size_t t = 0; t < kTechniqueCount; ++t)
     mixture.counts[t] =
         std::max(1u, static_cast<std::uint32_t>(std::lround(kTechniqueShare[t] * samples / kHalves)));
-    mixture.half_count += mixture.counts[t];
-  }
   return mixture;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "convert/linear_values.hpp"
+#include "convert/transfer.hpp"
 #include "look/brdf_models.hpp"
 
 namespace remap {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "converter/converter_fields.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "remap/error.hpp"
 #include "stages/warp_json.hpp"
 

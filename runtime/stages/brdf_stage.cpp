@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include "converter/compact_form.hpp"
 #include "core/number_text.hpp"

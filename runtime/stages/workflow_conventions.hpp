@@ -1,10 +1,41 @@
-// This file prepares the conventions of both workflows for the formulas.
+// This file holds the formulas of workflow conversions, and prepares the conventions of both workflows for
+// them. Generated headers have the same text (compiler/emit/workflow_code.cpp), so that both give the same
+// bits. Only the formulas of the diagnosis are not in headers.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
+#include <utility>
 
 #include "remap/workflow.hpp"
-#include "stages/workflow_code.hpp"
+
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"
+#endif
+
+namespace remap::workflow_code {
+// Each file depends on the files before it.
+// clang-format off
+#include "stages/code/bits.inc"
+#include "stages/code/floats.inc"
+#include "stages/code/conventions.inc"
+#include "stages/code/rows.inc"
+#include "stages/code/width.inc"
+#include "stages/code/metallic_to_specular.inc"
+#include "stages/code/specular_texels.inc"
+#include "stages/code/projection.inc"
+#include "stages/code/diagnosis.inc"
+// clang-format on
+}  // namespace remap::workflow_code
+
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif
 
 namespace remap {
 

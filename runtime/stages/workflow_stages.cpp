@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "remap/error.hpp"
 #include "remap/workflow.hpp"
 #include "stages/workflow_conventions.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "convert/linear_values.hpp"
+#include "convert/transfer.hpp"
 
 namespace remap {
 namespace {

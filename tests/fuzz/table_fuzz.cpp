@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "fuzz/fuzz.hpp"
 #include "table/check.hpp"
 

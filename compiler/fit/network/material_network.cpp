@@ -7,7 +7,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "lower/evaluate.hpp"
 #include "remap/version.hpp"
 #include "table/split.hpp"
 #include "table/table.hpp"

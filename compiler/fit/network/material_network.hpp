@@ -2,10 +2,8 @@
 // and a specular material with the same pictures (Sztrajman et al. 2019, section 8).
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "fit/network/network_training.hpp"
 #include "lower/workflow_fit.hpp"

@@ -1,6 +1,5 @@
 #include "fit/network/mlp.hpp"
 
-#include <algorithm>
 #include <map>
 #include <string>
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "lower/evaluate.hpp"
-
 namespace remap {
 namespace {
 

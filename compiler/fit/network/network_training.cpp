@@ -9,7 +9,6 @@
 #include <mutex>
 #include <numeric>
 #include <random>
-#include <utility>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"

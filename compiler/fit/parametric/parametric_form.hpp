@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.hpp"
+
 namespace remap {
 
 // A ParametricForm has a part for roughness and a part for specular:
@@ -20,11 +22,15 @@ struct ParametricForm {
   bool pole = false;        // true if the factor of specular1 has the term pole / alpha1
   // Returns true if this term has the same power as the previous term. Only the previous term then has a
   // constant, for both.
-  bool is_repeated(std::size_t term) const;
+  bool is_repeated(std::size_t term) const { return term > 0 && powers[term] == powers[term - 1]; }
 };
 
 // Finds `paper` (Sztrajman et al. 2019, section 7), or `paper+pole` with the term c5 / alpha of the authors'
 // scripts. Throws kUsage otherwise.
-ParametricForm find_form(const std::string& name);
+inline ParametricForm find_form(const std::string& name) {
+  if (name == "paper") return {"quartic", "slope", {4}, {1}, false};
+  if (name == "paper+pole") return {"quartic", "slope+pole", {4}, {1}, true};
+  throw usage_error("--form: unknown form '" + name + "' (choose paper or paper+pole)");
+}
 
 }  // namespace remap

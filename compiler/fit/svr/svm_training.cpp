@@ -11,7 +11,6 @@
 #include <libsvm/svm.h>
 
 #include "core/errors.hpp"
-#include "lower/evaluate.hpp"
 
 namespace remap {
 namespace {

@@ -1,10 +1,8 @@
 // This file runs one training by libsvm. svm_training.cpp is the only file that uses libsvm.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "lower/mapping.hpp"
 #include "table/regression.hpp"

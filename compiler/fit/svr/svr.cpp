@@ -7,12 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <string_view>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "fit/svr/svr_search.hpp"
-#include "lower/evaluate.hpp"
 
 namespace remap {
 namespace {

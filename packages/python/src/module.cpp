@@ -10,7 +10,7 @@
 
 #include "command_line/interruption.hpp"
 #include "conversion.hpp"
-#include "core/error_kind.hpp"
+#include "core/errors.hpp"
 #include "images.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"

@@ -2,13 +2,13 @@
 // have the same form for every format.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +16,7 @@
 #include "assets/document/image_codec.hpp"
 #include "assets/document/mtl_maker.hpp"
 #include "core/json_spans.hpp"
+#include "core/plain_text.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
 #include "remap/workflow.hpp"
@@ -125,10 +126,14 @@ struct AssetMaterial {
   std::string failure;
 
   // Returns a text such as `material 3 "Paint"`, safe for a message.
-  std::string title() const;
+  std::string title() const {
+    return "material " + std::to_string(index) + (name.empty() ? "" : " \"" + plain(name, 80) + "\"");
+  }
 };
 
-std::size_t count_of(const std::vector<AssetMaterial>& materials, MaterialState state);
+inline std::size_t count_of(const std::vector<AssetMaterial>& materials, MaterialState state) {
+  return static_cast<std::size_t>(std::ranges::count(materials, state, &AssetMaterial::state));
+}
 
 // An AssetPiece is a part of a result: `bytes`, or a range of the source if `bytes` is empty.
 struct AssetPiece {

@@ -1,5 +1,5 @@
-// This file edits a JSON text. It replaces values, and appends or removes members and entries with their
-// comma. No other byte moves.
+// This file edits texts. Some bytes are replaced, and no others move. In a JSON text it replaces values, and
+// appends or removes members and entries with their comma.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,25 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/document/text_splices.hpp"
 #include "core/json_spans.hpp"
 
 namespace remap {
+
+// A TextSplice puts `text` where the bytes of `span` are. The span may be empty.
+struct TextSplice {
+  TextSpan span;
+  std::string text;
+};
+
+// Sorts splices by their places. Splices at the same place keep their order.
+void sort_splices(std::vector<TextSplice>& splices);
+
+// Returns the text with sorted splices. Throws kNumeric if two touch the same bytes, which is a mistake of
+// the caller.
+std::string spliced(std::string_view text, const std::vector<TextSplice>& splices);
+
+// Returns the bytes that sorted splices replace. Insertions replace no bytes.
+std::vector<TextSpan> touched_by(const std::vector<TextSplice>& splices);
 
 class TextEdits {
  public:

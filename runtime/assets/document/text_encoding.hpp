@@ -2,10 +2,8 @@
 // it. Texts are read and edited as UTF-8.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "assets/document/asset.hpp"
 

@@ -2,11 +2,9 @@
 // (glTF 2.0, section 4). Only the JSON is in memory. All other bytes are ranges of the source.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "assets/document/asset.hpp"

@@ -4,9 +4,6 @@
 #include <cstddef>
 #include <list>
 #include <memory>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "assets/document/image_codec.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
 
 #include "assets/maps/map_pixels.hpp"
 #include "core/errors.hpp"

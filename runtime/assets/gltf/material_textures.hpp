@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +13,6 @@
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
 #include "assets/maps/texture_bake.hpp"
-#include "remap/model.hpp"
 
 namespace remap {
 

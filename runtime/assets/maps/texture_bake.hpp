@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "assets/document/image_codec.hpp"
-#include "remap/model.hpp"
 
 namespace remap {
 

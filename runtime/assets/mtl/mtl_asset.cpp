@@ -11,8 +11,8 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/mtl_document.hpp"
+#include "assets/document/text_edits.hpp"
 #include "assets/document/text_encoding.hpp"
-#include "assets/document/text_splices.hpp"
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
@@ -20,7 +20,6 @@
 #include "assets/mtl/mtl_material.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {

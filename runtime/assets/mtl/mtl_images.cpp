@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "assets/document/asset_uri.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"

@@ -1,7 +1,6 @@
 // This file finds the MTL files that an OBJ file refers to, and their materials by name.
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>

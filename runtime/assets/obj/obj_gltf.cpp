@@ -14,7 +14,6 @@
 #include "assets/obj/obj_materials.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"
-#include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "remap/version.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -11,7 +10,6 @@
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
-#include "assets/mtl/mtl_asset.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"

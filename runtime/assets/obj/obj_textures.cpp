@@ -3,14 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include "assets/document/asset_uri.hpp"
-#include "core/errors.hpp"
 #include "core/json_spans.hpp"
 #include "core/number_text.hpp"
-#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {

@@ -1,6 +1,4 @@
 // This file is `texremap convert`, which converts texture sets, assets or numbers.
-#include "texremap/commands/convert.hpp"
-
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/convert_plan.hpp"
 #include "texremap/report/report_page.hpp"

@@ -6,13 +6,12 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/asset_jobs.hpp"
+#include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
-#include "texremap/plan/written_names.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {

@@ -1,10 +1,7 @@
 // This file is `texremap list`. It lists the names for --from and --to, converters with their self-tests,
 // models and workflows.
-#include <cstdio>
 #include <iostream>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "command_line/command.hpp"

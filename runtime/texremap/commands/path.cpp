@@ -3,7 +3,6 @@
 #include "remap/path.hpp"
 
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

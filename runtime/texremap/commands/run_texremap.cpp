@@ -1,6 +1,5 @@
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "command_line/version_text.hpp"
 #include "texremap/commands/commands.hpp"
 
 namespace remap {

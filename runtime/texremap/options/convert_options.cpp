@@ -10,7 +10,6 @@
 #include "core/number_text.hpp"
 #include "core/system.hpp"
 #include "remap/error.hpp"
-#include "sets/name_pieces.hpp"
 
 namespace remap {
 namespace {

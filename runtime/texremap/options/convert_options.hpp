@@ -14,7 +14,6 @@
 #include "remap/conversion.hpp"
 #include "remap/converter.hpp"
 #include "remap/model.hpp"
-#include "remap/surface.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/options/part.hpp"
 #include "texremap/options/used_converters.hpp"
@@ -161,5 +160,7 @@ void note_given(const Command& command, ConvertOptions& options);
 
 // Returns all options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
+
+inline constexpr const char* kProgram = "texremap";  // begins every message
 
 }  // namespace remap

@@ -1,6 +1,6 @@
 #include "texremap/options/used_converters.hpp"
 
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "remap/shipped_converters.hpp"
 
 namespace remap {

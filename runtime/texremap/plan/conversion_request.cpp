@@ -1,15 +1,11 @@
 #include "texremap/plan/conversion_request.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <thread>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
-#include "sets/folder_walk.hpp"
 
 namespace remap {
 namespace {

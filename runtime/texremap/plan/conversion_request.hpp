@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/workflow_choice.hpp"
 #include "texture/target_plan.hpp"
-#include "texture/texture_pass.hpp"
 
 namespace remap {
 

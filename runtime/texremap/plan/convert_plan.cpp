@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "assets/maps/workflow_values.hpp"
-#include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
@@ -16,7 +14,6 @@
 #include "remap/path.hpp"
 #include "remap/warp.hpp"
 #include "sets/folder_walk.hpp"
-#include "stages/brdf_stage.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "texremap/plan/asset_jobs.hpp"
 #include "texremap/plan/conversion_request.hpp"

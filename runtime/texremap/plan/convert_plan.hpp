@@ -16,7 +16,6 @@
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
 #include "texture/target_plan.hpp"
-#include "texture/texture_pass.hpp"
 
 namespace remap {
 

@@ -1,9 +1,7 @@
 #include "texremap/plan/manifest.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <set>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"

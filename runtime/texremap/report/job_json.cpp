@@ -1,7 +1,6 @@
 #include "texremap/report/job_json.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/report_text.hpp"
 #include "texremap/plan/converter_text.hpp"

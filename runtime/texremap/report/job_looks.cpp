@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/errors.hpp"
 #include "look/asset_reader.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"

@@ -8,7 +8,7 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
-#include "texremap/options/program.hpp"
+#include "texremap/options/convert_options.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/run/planned_roles.hpp"
 

@@ -1,7 +1,6 @@
 #include "texremap/report/part_report.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <unordered_map>
 
 #include "core/errors.hpp"

@@ -7,7 +7,7 @@
 
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/linear_values.hpp"
+#include "convert/transfer.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -19,7 +19,7 @@
 #include "look/scene.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
-#include "texremap/options/program.hpp"
+#include "texremap/options/convert_options.hpp"
 #include "texremap/report/job_looks.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/content_hash.hpp"

@@ -1,7 +1,6 @@
 #include "texremap/report/reporter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 
@@ -11,7 +10,7 @@
 #include "core/report_text.hpp"
 #include "remap/conversion.hpp"
 #include "sets/folder_walk.hpp"
-#include "texremap/options/program.hpp"
+#include "texremap/options/convert_options.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/report/job_json.hpp"

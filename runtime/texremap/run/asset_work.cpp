@@ -9,7 +9,7 @@
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"
-#include "texremap/run/job_work.hpp"
+#include "texremap/run/run_jobs.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {

@@ -12,7 +12,6 @@
 #include "stages/dielectric_f0.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/run/planned_roles.hpp"
-#include "texture/texture_pass.hpp"
 
 namespace remap {
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <set>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <functional>
 #include <mutex>
 #include <new>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
@@ -13,11 +18,15 @@
 #include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/run/job_processes.hpp"
-#include "texremap/run/job_work.hpp"
-#include "texremap/run/retries.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
+
+// Calls `work`. If it fails with a code of a short failure (core/errors.hpp), calls it up to three times
+// again, with growing pauses. Returns the messages of the failures before the success. If all calls fail,
+// throws the last failure. An interruption ends the pause.
+std::vector<std::string> with_retries(const std::function<void()>& work);
+
 namespace {
 
 // Each job adds this much to the progress line, whatever its size.
@@ -182,6 +191,29 @@ std::vector<JobReport> run_jobs(const ConvertPlan& plan,
   std::vector<JobReport> all = reports.all();
   require_effect(plan, all);
   return all;
+}
+
+namespace {
+
+constexpr std::size_t kMostRepeats = 3;
+
+void wait_before_repeat(std::size_t repeat) {
+  for (int i = 0; i < 5 << repeat && !interruption(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+}  // namespace
+
+std::vector<std::string> with_retries(const std::function<void()>& work) {
+  std::vector<std::string> troubles;
+  for (;;) try {
+      work();
+      return troubles;
+    } catch (const Error& error) {
+      if (!is_transient(error.system_code()) || troubles.size() == kMostRepeats || interruption()) throw;
+      wait_before_repeat(troubles.size());
+      troubles.emplace_back(error.what());
+    }
 }
 
 }  // namespace remap

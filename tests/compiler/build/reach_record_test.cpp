@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
 #include "table/table.hpp"

@@ -1,7 +1,5 @@
 // This file tests what every kind of fit must do. A fit follows a surface between its rows, with any number
 // of threads, and reports its progress. An unusual table gives finite values or an error.
-#include "fit/kinds.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "fit/fit_table.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 

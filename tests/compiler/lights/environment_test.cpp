@@ -12,7 +12,7 @@
 
 #include "core/files.hpp"
 #include "look/brdf_models.hpp"
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scene.hpp"
 #include "lower/fit_file.hpp"

@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "materials/materials.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

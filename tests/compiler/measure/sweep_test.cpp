@@ -12,7 +12,6 @@
 
 #include "compiler/measure/sweep_session.hpp"
 #include "core/files.hpp"
-#include "measure/interpolation.hpp"
 #include "measure/picture_taker.hpp"
 #include "measure/target_bank.hpp"
 #include "remap/error.hpp"

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "remap/error.hpp"
 #include "study/workflows.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "table/folds.hpp"
 #include "table/split.hpp"
 
 using namespace remap;

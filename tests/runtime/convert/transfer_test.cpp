@@ -1,11 +1,11 @@
 // This file tests the curve of sRGB against its formula in long doubles.
+#include "convert/transfer.hpp"
+
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
-
-#include "convert/linear_values.hpp"
 
 using namespace remap;
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/errors.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 #include "texture/image_library.hpp"

@@ -6,8 +6,8 @@
 
 #include "assets/maps/legacy_material.hpp"
 #include "assets/maps/map_pixels.hpp"
+#include "core/input_file.hpp"
 #include "core/number_text.hpp"
-#include "core/read_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 #include "support/build_speed.hpp"
 #include "support/shared_data.hpp"

@@ -9,7 +9,7 @@
 
 #include "assets/maps/legacy_material.hpp"
 #include "assets/obj/obj_mesh.hpp"
-#include "core/read_file.hpp"
+#include "core/input_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 #include "support/build_speed.hpp"
 #include "support/shared_data.hpp"

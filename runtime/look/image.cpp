@@ -1,4 +1,4 @@
-#include "look/image_file.hpp"
+#include "look/image.hpp"
 
 #include <algorithm>
 #include <array>

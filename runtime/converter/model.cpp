@@ -1,8 +1,9 @@
+#include "remap/model.hpp"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
-
-#include "remap/model.hpp"
 
 namespace remap {
 namespace {
@@ -74,6 +75,38 @@ bool is_valid_model(const std::string& name) {
 
 bool is_valid_specular(const std::string& name) {
   return is_valid_id(name) && !encoding_from_name(name).has_value();
+}
+
+double to_alpha(RoughnessEncoding convention, double own) {
+  switch (convention) {
+    case RoughnessEncoding::kAlpha:
+      return own;
+    case RoughnessEncoding::kRoughness:
+      return own * own;
+    case RoughnessEncoding::kExponent:
+      return std::sqrt(2.0 / (own + 2.0));
+    case RoughnessEncoding::kGlossiness:
+      return (1.0 - own) * (1.0 - own);
+    case RoughnessEncoding::kSquared:
+      return std::sqrt(own);
+  }
+  return own;
+}
+
+double from_alpha(RoughnessEncoding convention, double alpha) {
+  switch (convention) {
+    case RoughnessEncoding::kAlpha:
+      return alpha;
+    case RoughnessEncoding::kRoughness:
+      return std::sqrt(alpha);
+    case RoughnessEncoding::kExponent:
+      return 2.0 / (alpha * alpha) - 2.0;
+    case RoughnessEncoding::kGlossiness:
+      return 1.0 - std::sqrt(alpha);
+    case RoughnessEncoding::kSquared:
+      return alpha * alpha;
+  }
+  return alpha;
 }
 
 }  // namespace remap
