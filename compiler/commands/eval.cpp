@@ -103,7 +103,7 @@ void run(const EvalOptions& options) {
     throw usage_error(options.grid == 0 ? "eval: a table is required (give its file, or use --grid)"
                                         : "--grid cannot be used with a table (remove one of the two)");
   if (options.grid == 0 && !options.output.empty())
-    throw usage_error("--output can only be used with --grid");
+    throw usage_error("--output cannot be used with a table (remove it, or replace the table by --grid N)");
   require_new(options.output, options.force);
   const Fit fit = find_fit(options.fit, options.fit_folder);
   if (options.grid == 0)

@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/report_text.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/network/material_network.hpp"
 #include "fit/parametric/parametric_form.hpp"
@@ -89,10 +90,10 @@ void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, 
   }
   numbers += outputs * (width + 1);
   if (hidden.size() < kMostLayers && numbers <= kMostNetworkNumbers) return;
-  throw usage_error("--layers: a network of " + std::to_string(hidden.size() + 1) + " layers and " +
+  throw usage_error("--layers: a network of " + counted(hidden.size(), "hidden layer") + " and " +
                     std::to_string(numbers) + " numbers is too large (at most " +
-                    std::to_string(kMostLayers) + " layers and " + std::to_string(kMostNetworkNumbers) +
-                    " numbers)");
+                    std::to_string(kMostLayers - 1) + " hidden layers and " +
+                    std::to_string(kMostNetworkNumbers) + " numbers)");
 }
 
 // Refuses other options for a table of metallic materials. Only a network that converts specular to metallic
@@ -243,7 +244,8 @@ void add_regression_options(Command& app, FitCommand& command) {
   app.add_option("--activation NAME", options.mlp.activation, one_of(kActivations, "activation function"),
                  "Network: activation function")
       ->default_text(std::string(activation_name(options.mlp.activation)));
-  app.add_option("--starts", options.mlp.starts, "Network: trainings, of which the best is kept")
+  app.add_option("--starts", options.mlp.starts,
+                 "Network: number of trainings; remapc keeps the best network")
       ->range(1, kMostStarts);
   app.add_option("--held-out", options.held_out_fraction, "Fraction of the rows held out to measure errors");
   app.add_option(

@@ -300,7 +300,7 @@ void show_card(const WarpMapFit& fit, const ShowOptions&) {
              copied = std::holds_alternative<CopiedNodes>(table.entries);
   std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, "
             << (quadratic ? "quadratic" : "in closed form") << "; " << table.nodes << " nodes each, "
-            << (copied ? "nearest copied" : "blended") << "; " << byte_count(fit.warp) << " bytes\n";
+            << (copied ? "exact" : "blended") << "; " << byte_count(fit.warp) << " bytes\n";
   if (fit.copy_rms_error >= 0.0)
     std::cout << "  " << percent(fit.copy_rms_error)
               << " of the template's spread: difference to an exact copy (RMS)\n";

@@ -35,7 +35,7 @@ export interface MaterialOptions {
   extensions?: 'write' | 'fold';
   /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
   metallicBias?: number;
-  /** Enlarges smaller images of a material, and brings maps with another KHR_texture_transform onto one grid. */
+  /** Enlarges smaller images of a material, and puts maps with different KHR_texture_transform onto one grid. */
   resample?: boolean;
   /** New images of color become JPEG of this quality, 1 to 100. */
   jpeg?: number;

@@ -119,9 +119,9 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
   } else {
     const std::vector<NameReading> readings = naming.read(path.stem().string());
     if (readings.empty())
-      throw input_error(
-          display_path(path) +
-          ": cannot detect the kind of map from its name (give the folder of its set, or --names FILE)");
+      throw input_error(display_path(path) +
+                        ": cannot detect the kind of map from its name (rename it, such as "
+                        "wood_Roughness.png, or add --names FILE)");
     CheckedMaterial material;
     material.path = path;
     material.name = display_path(path);

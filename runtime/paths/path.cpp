@@ -203,12 +203,12 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     const auto legs = least_paths(*graph_, {waypoints[i], waypoints[i + 1]}, 1);
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
-      throw Error(ErrorKind::kUsage, from + " to " + to + ": no converters lead there (" + from +
-                                         " converts to " +
-                                         (reached.empty() ? "no model" : joined(reached, ", ")) +
-                                         (reached.empty() ? "" : "; closest: " + closest_name(to, reached)) +
-                                         "; models that convert to " + to + ": " +
-                                         (reaching_it.empty() ? "none" : joined(reaching_it, ", ")) + ")");
+      throw Error(ErrorKind::kUsage,
+                  from + " to " + to + ": no converters lead there (" + from + " converts to " +
+                      (reached.empty() ? "no model" : joined(reached, ", ")) +
+                      (reached.empty() ? "" : "; most similar name: " + closest_name(to, reached)) +
+                      "; models that convert to " + to + ": " +
+                      (reaching_it.empty() ? "none" : joined(reaching_it, ", ")) + ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }

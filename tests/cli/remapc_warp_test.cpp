@@ -61,7 +61,7 @@ TEST_CASE(
   CHECK(fit.copy_rms_error == json["copy_rms_error"]);
   CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
   const std::string card = session.remapc("show stony.json").output;
-  CHECK(card.find("256 nodes each, nearest copied") != std::string::npos);
+  CHECK(card.find("256 nodes each, exact") != std::string::npos);
   CHECK(card.find("difference to an exact copy") != std::string::npos);
 
   require_success(session.remapc("emit stony.json -o alone"));

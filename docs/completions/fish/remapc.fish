@@ -137,7 +137,7 @@ complete -c remapc -n '__fish_seen_subcommand_from fit' -l help-all -d 'Show all
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l form -x -d 'Parametric: paper or paper+pole'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l layers -x -d 'Network: units of each hidden layer, as 16,16'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l activation -x -a 'relu tanh silu' -d 'Network: activation function'
-complete -c remapc -n '__fish_seen_subcommand_from fit' -l starts -x -d 'Network: trainings, of which the best is kept'
+complete -c remapc -n '__fish_seen_subcommand_from fit' -l starts -x -d 'Network: number of trainings'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l held-out -x -d 'Fraction of the rows held out to measure errors'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l lower -x -d 'Largest allowed deviation of the converter from the fit: absolute for target alpha, relative to the largest value for target specular'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l seed -x -d 'Seed of the split and all other random choices'

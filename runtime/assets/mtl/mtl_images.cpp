@@ -197,9 +197,9 @@ std::string key_of(const MtlSurface& surface, const LegacyMaterial& factors) {
 }
 
 std::string exponent_warning(const MtlSurface& surface) {
-  return "map_Ns " + plain(surface.exponent_map->file, kLongestShownName) + " is read as shares of Ns " +
+  return "map_Ns " + plain(surface.exponent_map->file, kLongestShownName) + " is multiplied by Ns " +
          number_text(surface.exponent.value_or(0.0)) +
-         ", as the specification has it; a map of roughness would have to be inverted";
+         ", as the MTL specification says (if the map holds roughness, invert it)";
 }
 
 }  // namespace remap

@@ -32,7 +32,7 @@ std::string reason(const std::vector<ConverterPath>& paths) {
   const ConverterPath &best = paths[0], &next = paths[1];
   if (best.expected_error < next.expected_error) return "its highlight is the closest";
   if (best.steps.size() < next.steps.size())
-    return "no path has a closer highlight, and the others that match it have more steps";
+    return "no path has a closer highlight, and equally close paths have more steps";
   return "no path has a closer highlight, and its ids come first in the alphabet";
 }
 
@@ -100,7 +100,7 @@ std::vector<std::string> stage_texts(const ConversionChoice& choice) {
   std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
   const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;
   if (from_metallic && (choice.source_brdf != choice.target_brdf || !choice.is_to_metallic()))
-    stages.push_back("to diffuse and specular by equation (2), exact");
+    stages.push_back("to diffuse and specular by equation (2) of Sztrajman et al. 2019, exact");
   if (choice.source_brdf != choice.target_brdf)
     stages.push_back("roughness and specular from " + choice.source_brdf + " to " + choice.target_brdf);
   if (choice.finds_metallic()) stages.push_back("to base color and metallic by projection");

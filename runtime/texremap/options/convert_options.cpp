@@ -305,7 +305,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFiles);
   command
       .add_flag("--resample", options.resample,
-                "Enlarge smaller maps of a set to the largest size, bilinearly; bring maps with another "
+                "Enlarge smaller maps of a set to the largest size, bilinearly; put maps with different "
                 "KHR_texture_transform onto one grid")
       ->common()
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
@@ -313,7 +313,7 @@ void add_map_options(Command& command, ConvertOptions& options) {
       .add_option(
           "--prefer WORDS", options.prefer,
           "Of several maps of one parameter, take the map of this role or with this word in its name: gloss, "
-          "arm, 4k, png; commas between, the first that applies counts")
+          "arm, 4k, png; comma-separated, the first word that applies is used")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->tag(kChangesResults | kNeedsFolder);

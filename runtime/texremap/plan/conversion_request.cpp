@@ -92,8 +92,8 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
     if (is_input(parameter) && !workflow.translation)
       throw usage_error(
           parameter_option(parameter) +
-          ": --from or --to must be openpbr or standard-surface, and the other option one of these, "
-          "blender, gltf or usd (for other models, convert to openpbr first)");
+          ": one of --from and --to must be openpbr or standard-surface, and the other must be openpbr, "
+          "standard-surface, blender, gltf or usd (for other models, convert to openpbr first)");
     const bool is_used = parameter == Parameter::kOcclusion ||
                          (parameter == Parameter::kMetalMask && workflow.finds_metallic());
     if (!is_used) refuse_input("--input", parameter);

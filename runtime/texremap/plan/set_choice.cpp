@@ -178,7 +178,8 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
       throw usage_error(
           "no folder and no maps given (for example: texremap convert FOLDER --to unity -o out)");
     if (model.empty())
-      throw usage_error("--from is required (the maps do not tell it; texremap list shows the names)");
+      throw usage_error(
+          "--from is required, because the maps do not identify the source (texremap list shows the models)");
     return {model, "--from is taken as " + model + ", which has these maps"};
   }
   std::string first;

@@ -183,7 +183,9 @@ std::string outcome_text(const JobReport& report, bool dry_run) {
                     untouched = report.count(MaterialState::kUntouched);
   const std::string verb = dry_run ? "would be " : "";
   std::string text = converted == 0 && failed == 0
-                         ? "nothing to convert, " + verb + "copied"
+                         ? "nothing to convert" + std::string(report.results.empty() ? ""
+                                                              : dry_run ? ", the file would be copied"
+                                                                        : ", the file was copied")
                          : counted(converted, "material") + " " + verb + "converted";
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (untouched > 0) text += ", " + std::to_string(untouched) + " unchanged";

@@ -87,7 +87,8 @@ void require_success(const Outcome& outcome) {
   }
   if (outcome.reports.empty() && !list.skipped.empty() && !outcome.plan.part)
     throw input_error("no " + noun_of(list.kind) + " was converted (" +
-                      counted(list.skipped.size(), noun_of(list.kind)) + " skipped for the reason above)");
+                      counted(list.skipped.size(), noun_of(list.kind)) + " skipped for the " +
+                      (list.skipped.size() == 1 ? "reason" : "reasons") + " above)");
 }
 
 // Returns the name of a target parameter. Roughness is called by its encoding.

@@ -223,7 +223,7 @@ TEST_CASE("path: a missing link is named from both sides, with the nearest model
   converters.add("cycles/beckmann", "cycles/ggx", 0.1);
   CHECK(refusal(converters, {"mitsuba/ward", "cycles/ggx", {}}) ==
         "mitsuba/ward to cycles/ggx: no converters lead there (mitsuba/ward converts to mitsuba/as, "
-        "mitsuba/ggx; closest: mitsuba/ggx; models that convert to cycles/ggx: cycles/beckmann)");
+        "mitsuba/ggx; most similar name: mitsuba/ggx; models that convert to cycles/ggx: cycles/beckmann)");
   CHECK(
       refusal(converters, {"mitsuba/ggx", "mitsuba/ward", {}}) ==
       "mitsuba/ggx to mitsuba/ward: no converters lead there (mitsuba/ggx converts to no model; models that "
