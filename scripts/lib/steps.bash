@@ -64,11 +64,13 @@ build_preset() {
 # run_tests PRESET [CTEST_OPTION...] shows failures, ctest's summary and why tests were skipped. Passed and skipped tests
 # are only in the log.
 run_tests() {
+  # Many tests wait for files and processes, so more of them run than there are processors.
+  local -ri tests_at_once=$((($(nproc) * 3 + 1) / 2))
   local -r preset=$1 hidden='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.*( Passed |\*\*\*Skipped ))'
   local -a statuses
   shift
   echo "Testing (preset $preset${*:+, $*})"
-  ctest --preset "$preset" --parallel "$(nproc)" --no-label-summary "$@" </dev/null 2>&1 | tee -a "$log" |
+  ctest --preset "$preset" --parallel "$tests_at_once" --no-label-summary "$@" </dev/null 2>&1 | tee -a "$log" |
     grep -vE "$hidden" && statuses=(0) || statuses=("${PIPESTATUS[@]}")
   skip_reasons "build/$preset/Testing/Temporary/LastTest.log" | tee -a "$log"
   return "${statuses[0]}"

@@ -38,7 +38,8 @@ TEST_CASE("texremap: a fit as --converters names its models") {
   session.write_pair("exr");
   const Fit fit = lowered_fit(example_fit());
   write_file(session.path("fit.json"), fit_to_json(fit));
-  require_success(session.texremap("convert --converters fit.json --roughness r.exr --specular s.exr -o out"));
+  require_success(
+      session.texremap("convert --converters fit.json --roughness r.exr --specular s.exr -o out"));
   const TestImage in = session.image("r.exr"), out = session.image("out/r.exr");
   CHECK(out.spec.get_string_attribute("remap:converter") == fit.id);
   const auto converter = make_lowered_converter(fit);
@@ -82,7 +83,8 @@ TEST_CASE("texremap: a fit without a converter is refused with what to run") {
   const Session session;
   const auto refused = [&](const std::string& json) {
     write_file(session.path("fit.json"), json);
-    const ProcessResult result = session.texremap("convert --converters fit.json --roughness 0.25 --specular 0.3");
+    const ProcessResult result =
+        session.texremap("convert --converters fit.json --roughness 0.25 --specular 0.3");
     CHECK(result.exit_code == 1);
     return result.errors;
   };
