@@ -1,11 +1,11 @@
 /**
- * Converts the materials of a document of glTF-Transform, as the command `texremap convert` does those of a file:
+ * This module converts the materials of a glTF-Transform document, as the command `texremap convert` converts a file:
  *
  *     await document.transform(remapMaterials({ from: 'gltf-specgloss', to: 'gltf' }));
  */
 import type { Transform } from '@gltf-transform/core';
 
-/** Texels in rows from the top, channels interleaved; opacity is not multiplied into colors. */
+/** An Image has its rows from top to bottom, with interleaved channels. Colors are not multiplied by opacity. */
 export interface Image {
   width: number;
   height: number;
@@ -15,16 +15,16 @@ export interface Image {
   data: Uint8Array | Uint16Array;
 }
 
-/** Decodes and encodes whole image files. Values are those of the file, without a curve or a profile applied. */
+/** An ImageCodec decodes and encodes whole image files. It applies no curve and no profile to the values. */
 export interface ImageCodec {
   decode(bytes: Uint8Array): Image | Promise<Image>;
-  /** `setting`: the level of PNG, 1 to 9, or the quality of JPEG. */
+  /** `setting` is the level of PNG, 1 to 9, or the quality of JPEG, 1 to 100. */
   encode(format: 'png' | 'jpeg', image: Image, setting: number): Uint8Array | Promise<Uint8Array>;
-  /** Called after each document. */
+  /** This is called after each document. */
   close?(): void;
 }
 
-/** Those of the command (docs/assets.md), and where images and the program come from. */
+/** These are options of the command (docs/assets.md), the codec of images, and the place of the program. */
 export interface MaterialOptions {
   from?: 'gltf-specgloss' | 'gltf';
   to: 'gltf' | 'gltf-specgloss';
@@ -33,21 +33,21 @@ export interface MaterialOptions {
    * fold: replaces them by core, for viewers that do not read them.
    */
   extensions?: 'write' | 'fold';
-  /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
+  /** How strongly metallic 0 and 1 are preferred, 0 to 1: 1e-6 for clean maps (default), 1e-5 for scans and JPEG. */
   metallicBias?: number;
   /** Enlarges smaller images of a material, and puts maps with different KHR_texture_transform onto one grid. */
   resample?: boolean;
-  /** New images of color become JPEG of this quality, 1 to 100. */
+  /** Writes new color images as JPEG of this quality, 1 to 100. */
   jpeg?: number;
-  /** By default PNG alone in node, others where sharp is installed; in a browser PNG, and reading of JPEG and WebP. */
+  /** Default in node: PNG, and other formats if sharp is installed. Default in a browser: PNG, and JPEG and WebP for reading. */
   codec?: ImageCodec;
-  /** program.wasm of the package: its bytes, a URL or a Response; by default the file beside this one. */
+  /** program.wasm of the package: its bytes, a URL or a Response. By default, the file beside this module. */
   program?: ArrayBuffer | ArrayBufferView | URL | string | Response;
 }
 
 /**
- * Materials, their names, extras and other extensions stay the same objects, and so does everything else; old textures stay
- * until `prune()`. Warnings go to the logger of the document. Throws a RemapError with the text of the command for options that
- * it refuses, and, after the others are converted, for materials that cannot be converted.
+ * Materials, their names, extras and other extensions stay the same objects. Old textures stay until `prune()`. Warnings go
+ * to the logger of the document. Throws a RemapError if the command refuses the options. If some materials cannot be
+ * converted, the others are converted first.
  */
 export function remapMaterials(options: MaterialOptions): Transform;

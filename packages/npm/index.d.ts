@@ -1,18 +1,18 @@
 /**
- * Converts maps of material parameters between the models of renderers.
+ * This module converts maps of material parameters between the models of renderers.
  *
- * Shapes. A map of N texels is a typed array of N values for one channel. A color (specular, diffuse, base color) is
- * - interleaved: one array of 3 N values, red, green, blue of the first texel, then of the second; with 4 N values the
- *   fourth is opacity, which the result keeps;
+ * Shapes: a map of N texels is a typed array. With one channel it has N values. A color (specular, diffuse, base color) is
+ * - interleaved: one array of 3 N values, with red, green and blue of each texel; with 4 N values, the fourth is opacity,
+ *   which the result keeps;
  * - planar: a list of three arrays of N values;
  * - grey: one array of N values.
- * N is the length of a map of one channel, else of a plane; where colors are all, a third of the first one's length.
- * A number, or a list of three for a color, stands for every texel.
+ * If all maps are colors, the first array is interleaved RGB, so its length is 3 N. A number, or a list of three numbers for
+ * a color, means the same value for every texel.
  *
- * Units. Float32Array and Float64Array hold the values themselves, colors linear. Whole numbers are parts of 255 or 65535,
- * colors in sRGB; `transfer` says otherwise. Roughness is in the encoding of its model (`models()`): alpha, perceptual
- * roughness, a Phong exponent or alpha squared, and means roughness even where the model takes glossiness, which has a name
- * of its own; `sourceEncoding` and `targetEncoding` say otherwise.
+ * Units: Float32Array and Float64Array hold the values themselves; their colors are linear. Integers are fractions of 255 or
+ * 65535; their colors are sRGB. `transfer` changes this. `roughness` has the encoding of its model (see `models()`): alpha,
+ * perceptual roughness, a Phong exponent or alpha squared. It is never glossiness, which has a separate name.
+ * `sourceEncoding` and `targetEncoding` change the encoding.
  */
 
 export type MapArray = Float32Array | Float64Array | Uint8Array | Uint8ClampedArray | Uint16Array;
@@ -23,20 +23,20 @@ export type Encoding = 'alpha' | 'roughness' | 'exponent' | 'glossiness' | 'squa
 export type Transfer = 'linear' | 'srgb';
 export type Measure = 'residual' | 'metallicUncertainty' | 'issues';
 
-/** How a converter is found. */
+/** These options choose the converter. */
 export interface ConverterOptions {
   /** Models that the path visits, in this order. */
   via?: string[];
-  /** F0 of metallic workflows where metallic is 0; from 0 to 0.9. */
+  /** F0 of dielectrics (metallic 0) in metallic workflows, 0 to 0.9. By default, the F0 of the model. */
   dielectricF0?: number;
-  /** How much of two alike materials that nearer to metallic 0 or 1 is preferred; 1e-5 for scans and JPEG. */
+  /** How strongly metallic 0 and 1 are preferred, 0 to 1: 1e-6 for clean maps (default), 1e-5 for scans and JPEG. */
   metallicBias?: number;
 }
 
-/** The maps of a model: roughness and specular; of a workflow: those with diffuse, or base color and metallic. */
+/** A BRDF model has roughness and specular. A workflow also has diffuse, or base color and metallic instead. */
 export interface SourceMaps {
   roughness?: ScalarMap;
-  /** 1 - roughness, in its place. */
+  /** 1 - roughness, instead of roughness. */
   glossiness?: ScalarMap;
   specular?: ColorMap;
   diffuse?: ColorMap;
@@ -47,42 +47,42 @@ export interface SourceMaps {
 }
 
 export interface MapOptions {
-  /** Texels a row, for positions in messages and for dithering. Without it rows are of any length. */
+  /** Number of texels in a row. Messages and dithering use it. */
   width?: number;
-  /** The row of the whole map that the arrays begin with. */
+  /** Index of the first row of the arrays in the whole map. */
   firstRow?: number;
-  /** Of all colors, or of each. */
+  /** Transfer of all colors, or of each color by its name. */
   transfer?: Transfer | { [color: string]: Transfer };
-  /** Of the results; by default that of the source of the same name, else of the first map. */
+  /** Type of the results. By default, the type of the source with the same name, otherwise of the first map. */
   type?: 'float32' | 'float64' | 'uint8' | 'uint16';
   sourceEncoding?: Encoding;
   targetEncoding?: Encoding;
-  /** NaN, infinite and negative values: kept as far as results can hold them (the default), clamped, or an error. */
+  /** What happens to NaN, infinite and negative values: kept if the result type can hold them (default), clamped, or an error. */
   badTexels?: 'keep' | 'clamp' | 'fail';
-  /** Adds noise of half a step to results of 8 bits, the same in every run. */
+  /** Adds noise of half a step to 8-bit results. The noise is the same in every run. */
   dither?: boolean;
-  /** What to compute of a conversion to metallic as well. */
+  /** Measures of a conversion to metallic that are computed as well. */
   measures?: Measure[];
-  /** Arrays that results are written to, by their names, in place of new ones; they may be those of the sources. */
+  /** Existing arrays for the results, by name. They may be the arrays of the sources. */
   into?: { [target: string]: MapArray | [MapArray, MapArray, MapArray] | HeldArray | [HeldArray, HeldArray, HeldArray] };
 }
 
 export interface Statistics {
   texels: number;
-  /** Texels outside of what was measured. */
+  /** Number of texels outside of the measured range. */
   outOfDomain: number;
   nan: number;
   infinite: number;
   negative: number;
-  /** Values, not texels, that whole numbers cannot hold. */
+  /** Number of values (not texels) that integers cannot hold. */
   clippedValues: number;
   aboveOne: number;
 }
 
-/** Arrays as the sources have them; numbers where the sources are numbers. */
+/** Results have the shapes of the sources. If all sources are numbers, results are numbers. */
 export interface TargetMaps {
   roughness?: any;
-  /** In place of roughness, where that is the encoding of the target. */
+  /** Instead of roughness, if the encoding of the target is glossiness. */
   glossiness?: any;
   specular?: any;
   diffuse?: any;
@@ -95,12 +95,12 @@ export interface TargetMaps {
 }
 
 export interface Path {
-  /** From the source to the target; empty where both have one BRDF. */
+  /** The BRDF models from source to target. Empty if both ends have the same BRDF. */
   models: string[];
   steps: { id: string; expectedError: number }[];
-  /** Difference of pictures, relative to the source's. */
+  /** Expected difference of pictures, relative to the source's picture. */
   expectedError: number;
-  /** How far pictures differ: RMSE of display values in per cent; null where nobody has compared them. */
+  /** RMSE of display values of rendered pictures, in per cent. Null if it was not measured. */
   pictureDifference: number | null;
   /** Another model of the same renderer that matches the highlight more closely, if there is one. */
   closer: string | null;
@@ -111,13 +111,13 @@ export interface Path {
 export interface Model {
   name: string;
   kind: 'brdf' | 'specular' | 'metallic' | 'alias';
-  /** Of its roughness. */
+  /** Encoding of its roughness. */
   encoding?: Encoding;
   /** The name of the specular parameter of a BRDF. */
   specular?: string;
-  /** Of a workflow. */
+  /** BRDF model of a workflow. */
   brdf?: string;
-  /** What an alias stands for, and why. */
+  /** The model that an alias means, and the reason. */
   model?: string;
   meaning?: string;
 }
@@ -128,16 +128,16 @@ export interface Converter {
   readonly target: string;
   readonly sourceEncoding: Encoding;
   readonly targetEncoding: Encoding;
-  /** The names of the maps that it takes, and that it makes. */
+  /** Names of the maps that it reads, and of the maps that it makes. */
   readonly sources: readonly string[];
   readonly targets: readonly string[];
-  /** What was measured: `[min, max]` of each parameter. */
+  /** Measured range of each parameter: `[min, max]`. */
   readonly domain: { [parameter: string]: [number, number] };
   readonly path: Omit<Path, 'notes' | 'assumptions'> | null;
   readonly notes: string[];
   readonly assumptions: string[];
   convert(maps: SourceMaps & MapOptions): TargetMaps;
-  /** Frees its memory now; otherwise that is done some time after the last use. */
+  /** Frees its memory now. Without this call, the memory is freed some time after the last use. */
   close(): void;
 }
 
@@ -146,36 +146,37 @@ export class RemapError extends Error {
 }
 
 /**
- * Makes the library ready: from the file of the package, or from bytes, a URL or a Response of texremap.wasm.
- * Everything else throws before.
+ * Loads the library from the file of the package, or from the bytes, a URL or a Response of texremap.wasm.
+ * Until it is loaded, all other functions throw.
  */
 export function load(source?: ArrayBuffer | ArrayBufferView | URL | string | Response): Promise<void>;
 
-/** Converts maps. Converters are kept for later calls. */
+/** Converts maps. The converter is kept for later calls. */
 export function convert(
   request: { source: string; target: string } & ConverterOptions & SourceMaps & MapOptions,
 ): TargetMaps;
 
 /**
- * A converter for many calls. `target` may be a renderer, such as cycles-5, for the closest of its models.
- * `specular:mitsuba/ward` and `metallic:mitsuba/ward` are layers over a BRDF model.
+ * Returns a converter for many calls. If `target` is a renderer, such as cycles-5, the closest of its models is used.
+ * `specular:mitsuba/ward` and `metallic:mitsuba/ward` are workflows over a BRDF model. `plain:` or `scaled:` before a
+ * workflow states what diffuse means: the reflectance, or the reflectance times 1 - max(specular), as in glTF.
  */
 export function converter(source: string, target: string, options?: ConverterOptions): Converter;
 
-/** The converter in the text of a fit file of remapc. */
+/** Returns the converter in the text of a fit file of remapc. */
 export function converterOfFit(text: string): Converter;
 
-/** An array in memory of the library. */
+/** A HeldArray is an array in the memory of the library. */
 export interface HeldArray {
-  /** The array. Memory moves when it grows, so ask for it again after each call, and give the HeldArray itself to convert(). */
+  /** The array. The memory moves when it grows: read this property again after each call, and pass the HeldArray to convert(). */
   readonly array: MapArray;
-  /** Gives the memory back, which nothing else does. Do not use a typed array that you keep: it shows what comes into that memory next. */
+  /** Frees the memory; nothing else frees it. Do not use the typed array afterwards, because other data will be in its memory. */
   free(): void;
 }
 
 /**
- * An array in memory of the library, of 4 GB at most. Where all maps of a call are such arrays, results (`into`) too, nothing is copied,
- * which is a tenth to a quarter faster.
+ * Returns an array in the memory of the library, which has 4 GB at most. If all maps of a call are such arrays, including
+ * the results (`into`), nothing is copied, and the call is 10 to 25 % faster.
  */
 export function allocate(type: 'float32' | 'float64' | 'uint8' | 'uint16', length: number): HeldArray;
 
