@@ -416,7 +416,7 @@ def _output_spec(model, model_format, output, changes, path):
     if stored is None:
         fail("is not supported for writing (use --format exr, tif or png)")
     if changes["type"] and stored != changes["type"]:
-        fail(f"cannot hold {kind} pixels (use {stored})")
+        fail(f"cannot hold {kind} pixels (use --type {stored})")
     if stored != str(model.format):
         spec.erase_attribute("oiio:BitsPerSample")
     spec.set_format(oiio.TypeDesc(stored))
