@@ -100,8 +100,10 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
 
 void run(const EvalOptions& options) {
   if (options.table.path.empty() == (options.grid == 0))
-    throw usage_error(options.grid == 0 ? "eval: a table is required (give its file, or use --grid)"
-                                        : "--grid cannot be used with a table (remove one of the two)");
+    throw usage_error(
+        options.grid == 0
+            ? "eval: a table is required (write remapc eval FIT TABLE.csv, or remapc eval FIT --grid N)"
+            : "--grid cannot be used with a table (remove one of the two)");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output cannot be used with a table (remove it, or replace the table by --grid N)");
   require_new(options.output, options.force);

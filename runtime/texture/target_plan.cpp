@@ -45,7 +45,7 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
-      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder");
+      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder (choose another folder)");
   std::vector<fs::path> results;
   for (const PlannedFile& map : plan.maps) results.push_back(map.path);
   for (const PlannedFile& copy : plan.copies) results.push_back(copy.path);
@@ -75,7 +75,8 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
                                          plain(reader.layout().channels[place.channel].name) +
                                          " is used as both " + plain_name(*held) + " and " +
-                                         plain_name(parameter) + " (choose channels with FILE:CHANNEL)");
+                                         plain_name(parameter) +
+                                         " (choose another channel for one of them, such as orm.png:G)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};

@@ -35,8 +35,8 @@ TreeManifest tree_of_sets(const IndexOptions& options) {
     if (!other.empty())
       tree.found.problems.push_back(
           {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
-                                      ": its set has the same name as the set of " + other +
-                                      " (rename one of the sets; upper and lower case are the same)"});
+                                      ": belongs to a set with the same name as the set of " + other +
+                                      " (rename one of the sets; A and a are the same letter here)"});
     return !other.empty();
   });
   if (tree.found.sets.empty() && tree.found.problems.empty())

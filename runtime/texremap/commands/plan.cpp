@@ -106,7 +106,8 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   run_words(command, words);
   note_given(command, options);
   refuse(options, kOfPlan, reason);
-  if (options.output.empty()) throw usage_error("--output is required after -- (the folder of the results)");
+  if (options.output.empty())
+    throw usage_error("--output is required after -- (add -o FOLDER there, for the results)");
   return options;
 }
 

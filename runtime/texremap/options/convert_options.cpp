@@ -255,7 +255,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
   options.converters.add_option(command)->tag(kIsPath);
   command
       .add_option(
-          "--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
+          "--extensions USE", options.extensions, one_of(kDielectricExtensions, "value"),
           "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
           "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
           "converted materials, others unchanged)")
@@ -321,20 +321,20 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFolder);
 }
 
-constexpr std::array<std::pair<const char*, const char*>, 23> kNewNames = {{
+constexpr std::array<std::pair<const char*, const char*>, 21> kNewNames = {{
     {"--fit", "--converters"},
     {"--occlusion", "--input (for example: --input occlusion=ao.png)"},
     {"--dither", "--type uint8-dithered"},
     {"--preset", "--to (for the packed files of glTF: --to gltf --layout gltf)"},
     {"--fold-specular", "--extensions fold"},
     {"--bake", "--resample"},
-    {"--histograms", "--verbose, with --json"},
+
     {"--metal-mask", "--input (for example: --input metal_mask=mask.png)"},
     {"--from-workflow", "--from (for example: --from specular:mitsuba/ward)"},
     {"--to-workflow", "--to (for example: --to specular:mitsuba/ward)"},
     {"--mtl-from", "--from (for example: --from blender)"},
     {"--jpeg", "--compression (for example: --compression jpeg=90)"},
-    {"--instructions", "REMAP_INSTRUCTIONS, an environment variable"},
+
     {"--bad-texels", "--nan"},
     {"--prior", "--metallic-bias"},
     {"--output-roughness-factor", "--output-encoding (for example: --output-encoding exponent=1000)"},
@@ -397,6 +397,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "--root", "was removed (give the folder before the assets: texremap convert FOLDER chair.gltf -o out)");
   command.retire("--diffuse-convention",
                  "was removed (write plain: or scaled: before the model: --from plain:gltf-specgloss)");
+  command.retire("--histograms", "was removed (use --verbose together with --json)");
+  command.retire("--instructions",
+                 "was removed (set an environment variable instead: REMAP_INSTRUCTIONS=avx2)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
   for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
@@ -468,7 +471,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
                   "undetermined), and issues, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
       ->tag(kIsPath | kNeedsFiles);
   command
-      .add_option("--nan NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
+      .add_option("--nan NAME", options.bad_texels, one_of(kBadTexels, "value"),
                   "NaN, infinite and negative values; clamp moves all values into the domain")
       ->default_text("keep")
       ->tag(kChangesResults);

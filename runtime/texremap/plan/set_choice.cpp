@@ -190,14 +190,15 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     const std::string context = display_path(set.folder / set.name);
     if (!first.empty() && inferred != model)
       throw usage_error("--from is required, because the sets differ: " + first + " uses the model " + model +
-                        ", " + context + " uses " + inferred + " (convert them separately)");
+                        ", " + context + " uses " + inferred +
+                        " (convert the sets of each model separately)");
     if (first.empty()) first = context;
     model = inferred;
     ++count;
   }
   if (sets->sets.empty() && !options.recursive && has_subfolder(options.folder))
     throw usage_error(display_path(options.folder) +
-                      ": contains no maps, only folders (add --recursive to convert these)");
+                      ": contains no maps, only folders (add --recursive to convert these folders)");
   if (first.empty())
     throw usage_error(
         "--from is required, because the file names do not identify the source (texremap list shows the "

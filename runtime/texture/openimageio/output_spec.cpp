@@ -182,7 +182,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
       keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);
   if (!stored) fail("is not supported for writing (use --format exr, tif or png)");
   if (changes.type && *stored != *changes.type)
-    fail("cannot hold " + name_of(type) + " pixels (use " + name_of(*stored) + ")");
+    fail("cannot hold " + name_of(type) + " pixels (use --type " + name_of(*stored) + ")");
   if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
