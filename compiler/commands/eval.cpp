@@ -72,7 +72,9 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
   require_same_models(fit, table);
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
-  if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
+  if (rows.empty())
+    throw input_error(table.name + ": no usable rows in the domain of " + fit.id +
+                      " (give a table with rows in this domain)");
   const Residuals residuals = residuals_of(rows, fit);
   const ErrorFigures alpha = error_figures(residuals.alpha), specular = error_figures(residuals.specular);
   const bool same_table = sha256(bytes) == fit.table.sha256;

@@ -403,11 +403,12 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const NormalShares shares = normals_of(rgb);
     constexpr double kUnit = 0.8, kInwards = 0.1;
     if (shares.unit < kUnit || shares.inwards < kInwards) return;
-    findings.push_back({rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
-                        percent(shares.inwards) +
-                            " of its normals point into the surface: they are of world or object space, "
-                            "not of tangent space",
-                        "bake the map again in tangent space, because texremap cannot convert it"});
+    findings.push_back(
+        {rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
+         percent(shares.inwards) +
+             " of the normals point into the surface, so the map is in world space or object space, "
+             "not in tangent space",
+         "bake the map again in tangent space, because texremap cannot convert it"});
   });
 }
 

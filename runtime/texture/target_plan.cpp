@@ -429,11 +429,11 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
       for (const TargetChannel& channel : part.channels)
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
-          throw usage_error(
-              map.path.string() +
-              ": would contain integers, but its roughness is an exponent "
-              "(write --output-encoding exponent=1000 if white means an exponent of 1000, as in MTL files; "
-              "OpenGL has 128; or --format exr)");
+          throw usage_error(map.path.string() +
+                            ": would contain integers, but its roughness is an exponent "
+                            "(use --format exr; or --output-encoding exponent=1000 if white means an "
+                            "exponent of 1000, as in MTL files; "
+                            "OpenGL has 128)");
     }
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
   const ProcessResult result = require_success(sets.texremap(words));
   CHECK_THAT(result.errors,
              Contains("warning: " + map +
-                      ": is not quite grey: its channels differ from G, which is used, by at most "));
+                      ": is not exactly grey: the channels differ from G, which is used, by at most "));
   if (extension == "png")
     CHECK_THAT(result.errors, Contains("by at most " + std::to_string(tint) + " of 255"));
   CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=

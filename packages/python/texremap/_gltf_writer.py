@@ -280,7 +280,7 @@ class GltfWriter:
             places.add(place)
             deep = deep or more
         if len(places) > 1:
-            raise Error(f"{' and '.join(textured)}: lie on different coordinates", "input")
+            raise Error(f"{' and '.join(textured)}: use different texture coordinates (give all of them one set of UVs)", "input")
         height, width = (max(values.shape[axis] for values in arrays.values()) for axis in (0, 1))
         four = np.ones((height, width, 4), np.float32)
         for name, values in arrays.items():

@@ -57,7 +57,7 @@ def texture_of(node, output, name, most=MOST_NODES) -> Union[Texture, Tuple[floa
     """Returns the texture or the constant that an output of a node gives. Raises :class:`Procedural` for
     others."""
     if most == 0:
-        raise Error(f"{name}: its nodes form a circle", "input")
+        raise Error(f"{name}: its nodes refer to each other in a circle (remove one of the connections)", "input")
     kind = node.kind
     if kind == "UsdUVTexture":
         return _uv_texture(node, output, name)

@@ -37,7 +37,7 @@ class MaterialReport(NamedTuple):
 def require_output(source, output, endings, force):
     """Raises :class:`Error` if ``output`` has an unsuitable extension, is the input, or exists."""
     if os.path.splitext(output)[1].lower() not in endings:
-        raise Error(f"{output}: a result is {', '.join(endings[:-1])} or {endings[-1]}", "output")
+        raise Error(f"{output}: the file name must end with {', '.join(endings[:-1])} or {endings[-1]}", "output")
     if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):
         raise Error(f"{output}: is the input (choose another name)", "output")
     if os.path.exists(output) and not force:

@@ -180,7 +180,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     if (model.empty())
       throw usage_error(
           "--from is required, because the maps do not identify the source (texremap list shows the models)");
-    return {model, "--from is taken as " + model + ", which has these maps"};
+    return {model, "texremap uses --from " + model + ", the model that has these maps"};
   }
   std::string first;
   std::size_t count = 0;
@@ -203,7 +203,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     throw usage_error(
         "--from is required, because the file names do not identify the source (texremap list shows the "
         "models)");
-  return {model, "--from is taken as " + model + ", by the maps of " +
+  return {model, "texremap uses --from " + model + ", detected from the maps of " +
                      (count == 1 ? first : std::to_string(count) + " sets")};
 }
 

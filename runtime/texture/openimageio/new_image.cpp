@@ -166,7 +166,7 @@ void OpenedNewImage::open_plane() {
                         level_ > 0 && output_->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
                                                                   : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output_->spec(), output_->format_name(), path_), layout_))
-    fail("cannot be written: format " + layout_.format + " would change the pixel type");
+    fail("cannot be written: format " + layout_.format + " would change the pixel type (use exr or tif)");
   plane_is_open_ = true;
 }
 
