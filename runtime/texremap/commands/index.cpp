@@ -82,16 +82,17 @@ void index(const IndexOptions& options) {
 
 void add_index_command(Command& app) {
   Command* command =
-      app.add_subcommand("index", "List the texture sets or assets of a tree, for conversions in parts");
+      app.add_subcommand("index", "List the texture sets or assets of a folder, for conversions in parts");
   IndexOptions& options = set_work<IndexOptions>(*command, index);
   command->add_option("DIR", options.folder, "Folder of texture sets or assets, with its subfolders")
       ->required();
-  command->add_option("-o,--output FILE", options.output, "The manifest: JSON, a set or an asset a line")
+  command
+      ->add_option("-o,--output FILE", options.output,
+                   "Manifest to write: JSON, one line for each set or asset")
       ->required();
-  Option* assets =
-      command->add_flag("--assets", options.assets,
-                        "List the assets (glTF and MTL files, with --format glb or gltf OBJ files) "
-                        "in DIR, not the texture sets");
+  Option* assets = command->add_flag(
+      "--assets", options.assets,
+      "List the glTF and MTL files in DIR (with --format, its OBJ files) instead of its texture sets");
   command->add_option("--format EXT", options.format, "Format that OBJ files are converted to: glb or gltf")
       ->needs(assets);
   command->add_option("--names FILE", options.names, "More naming conventions (JSON)")->excludes(assets);
