@@ -414,7 +414,7 @@ class NewByNode final : public NewImage {
     const PixelType stored =
         type == PixelType::kUint8 || layout_.format == "jpeg" ? PixelType::kUint8 : PixelType::kUint16;
     if (changes.type && stored != type)
-      fail("format " + layout_.format + " cannot hold " + name_of_type(type) + " pixels (use " +
+      fail("format " + layout_.format + " cannot hold " + name_of_type(type) + " pixels (use --type " +
            name_of_type(stored) + ")");
     for (std::size_t c = 0; c < layout_.channels.size(); ++c)
       layout_.channels[c] = {layout_.channels[c].name, stored, c * byte_count(stored)};

@@ -335,11 +335,12 @@ void require_held(const TargetChoice& choice) {
   const auto lacks = [&](Parameter held, Parameter other) {
     return choice.layout.file_with(held) != nullptr && is_wanted(choice, other);
   };
-  const std::string start = "--layout: " + choice.layout.name + " cannot hold ";
+  const std::string start = "--layout " + choice.layout.name + ": cannot hold ";
   if (lacks(Parameter::kSpecular, Parameter::kMetallic))
-    throw Error(ErrorKind::kUsage, start + "metallic (use separate or orm)");
+    throw Error(ErrorKind::kUsage, start + "metallic (use --layout separate or --layout orm)");
   if (lacks(Parameter::kMetallic, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage, start + "diffuse and specular (use separate or specgloss)");
+    throw Error(ErrorKind::kUsage,
+                start + "diffuse and specular (use --layout separate or --layout specgloss)");
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
       throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +

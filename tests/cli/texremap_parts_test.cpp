@@ -198,9 +198,9 @@ TEST_CASE("texremap parts: files that are gone or have another size fail their s
   CHECK_THAT(tree.texremap(kOfManifest + "out").errors, Contains("give its new path as DIR"));
   const ProcessResult result = tree.texremap(kOfManifest + "out moved --json");
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors,
-             Contains("s0_spec.png: is in the manifest, but cannot be read (run texremap index again)") &&
-                 Contains("but the manifest lists"));
+  CHECK_THAT(result.errors, Contains("s0_spec.png: is in the manifest, but cannot be read: No such file or "
+                                     "directory (run texremap index again)") &&
+                                Contains("but the manifest lists"));
   std::string states = set_states(result.output);
   std::sort(states.begin(), states.end());
   CHECK(states == "ccccccff");

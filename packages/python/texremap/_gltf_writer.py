@@ -244,7 +244,7 @@ class GltfWriter:
         if len(textures) < len(textured) or len({(t.path, t.wrap, t.place) for t in textures.values()}) > 1:
             return None
         if TILE in first.path:
-            raise Error(f"{textured[0]}: glTF has no tiles ({TILE})", "input")
+            raise Error(f"{textured[0]}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
         ending, is_grey, has_alpha = _header(first.path)
         if not ending:
             return None
@@ -271,7 +271,7 @@ class GltfWriter:
             if name in edit.baked:
                 tiles, (wrap, place) = edit.baked[name], edit.wrap_and_place()
                 if "" not in tiles:
-                    raise Error(f"{name}: glTF has no tiles ({TILE})", "input")
+                    raise Error(f"{name}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
                 arrays[name], more = tiles[""]
             else:
                 texture = edit.textures[name]
@@ -302,7 +302,7 @@ class GltfWriter:
 
     def _write_normal(self, holder, key, texture, name):
         if TILE in texture.path:
-            raise Error(f"{name}: glTF has no tiles ({TILE})", "input")
+            raise Error(f"{name}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
         strength = texture.scale[0] / 2
         is_plain = (_near(texture.scale, (2 * strength, 2 * strength, 2)) and _near(texture.bias, (-strength, -strength, -1)) and
                     texture.space != "sRGB" and texture.channels == "rgb" and _header(texture.path)[0])

@@ -65,5 +65,5 @@ def run(convert, output, as_json):
             print(f"texremap: {report.path}: {_line_of(report)}", file=sys.stderr)
     counts = [sum(report.state == state for report in reports) for state in ("converted", "left", "failed")]
     if not as_json:
-        print("texremap: {}: {} converted, {} left, {} failed".format(output, *counts), file=sys.stderr)
+        print("texremap: {}: {} converted, {} left unchanged, {} failed".format(output, *counts), file=sys.stderr)
     return 1 if counts[2] else 0

@@ -123,7 +123,7 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   }
   if (parts.size() > 1 && !output_->supports("multiimage"))
     fail(std::string("format ") + output_->format_name() + " cannot hold " + std::to_string(parts.size()) +
-         " parts (use exr or tif)");
+         " parts (use --format exr or --format tif)");
   const std::string model_format = parts.front().model->layout().format;
   for (const NewPart& part : parts) {
     std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
