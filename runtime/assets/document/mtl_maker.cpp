@@ -55,7 +55,7 @@ std::string maker_warning(MtlMaker maker) {
   const auto blender = [maker] {
     return "was written by Blender: texremap reads roughness as 1 - sqrt(Ns / " +
            number_text(blender_scale(maker)) +
-           "), metallic as Ka if illum is 3, and ignores Kd if there is map_Kd (--from mtl reads "
+           "), metallic from Ka and illum, and ignores Kd if there is map_Kd (--from mtl reads "
            "the file by the MTL specification)";
   };
   switch (maker) {
