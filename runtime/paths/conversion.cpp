@@ -188,7 +188,7 @@ void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
 
 void note_alias(const ModelName& given, ConversionChoice& choice) {
   if (given.alias != nullptr)
-    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + " (" +
+    choice.notes.push_back(std::string(given.alias->name) + " uses the model " + given.name + " (" +
                            std::string(given.alias->meaning) + ")");
 }
 

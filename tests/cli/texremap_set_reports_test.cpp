@@ -174,8 +174,7 @@ TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports][sl
     CHECK(green("--from metal-rough --to unity", "T_Rock_N.png") == 100);
     CHECK_THAT(sets.texremap("convert in --from substance --to unity -o two").errors,
                Contains("in/T_Rock_N.png: green is kept, because neither the file name nor --from shows "
-                        "whether the map is "
-                        "OpenGL or DirectX; unity reads OpenGL (green up)"));
+                        "whether the map is OpenGL or DirectX; unity reads OpenGL (green up)"));
   }
 }
 

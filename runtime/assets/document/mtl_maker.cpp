@@ -66,8 +66,7 @@ std::string maker_warning(MtlMaker maker) {
       return blender();
     case MtlMaker::kNvdiffrec:
       return "has the line bsdf pbr: texremap reads roughness and metallic from green and blue of Ks (--from "
-             "mtl reads "
-             "the file by the MTL specification)";
+             "mtl reads the file by the MTL specification)";
   }
   return "";
 }

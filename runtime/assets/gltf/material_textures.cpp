@@ -153,8 +153,7 @@ void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason
   if (!common)
     throw input_error("its " + textures.front().name() + " and " + textures.back().name() +
                       " textures repeat differently, and no image can hold both (bake both with one set of "
-                      "UVs, for example in "
-                      "Blender" +
+                      "UVs, for example in Blender" +
                       std::string(reason.otherwise) + ")");
   const UsedTexture& model = textures[common->of];
   const TextureInfo place = model.info;

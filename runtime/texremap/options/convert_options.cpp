@@ -371,12 +371,10 @@ void add_output_options(Command& command, ConvertOptions& options) {
                   "Pixel type of the results; uint8-dithered adds repeatable noise of half a step")
       ->tag(kChangesResults | kNeedsFiles);
   command
-      .add_option(
-          "--compression LEVEL", options.compression, compression(),
-          "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in assets). For glTF files also jpeg=QUALITY, from 1 to 100, or both as 9,jpeg=90: "
-          "new "
-          "color maps become JPEG if the old ones are JPEG without alpha")
+      .add_option("--compression LEVEL", options.compression, compression(),
+                  "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in "
+                  "new PNG files, 3 in assets). For glTF files also jpeg=QUALITY, from 1 to 100, or both as "
+                  "9,jpeg=90: new color maps become JPEG if the old ones are JPEG without alpha")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),

@@ -369,8 +369,7 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
       std::ranges::none_of(reports, &JobReport::has_compression_level))
     throw usage_error(
         "--compression: has no effect, because it applies only to PNG, and to EXR and TIFF with zip "
-        "compression "
-        "(remove this option)");
+        "compression (remove this option)");
 }
 
 std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {

@@ -24,14 +24,11 @@ TEST_CASE("light: nothing is said within 1 %, a remark beyond it, an error beyon
         require_light(wrong, "t.csv"),
         Catch::StartsWith("t.csv: diffuse matches only if the light of the source is multiplied"));
   }
-  CHECK(
-      light_remark({1.1863, 0.031}) ==
-      "diffuse matches only if the light of the source is multiplied by 1.186 (the diffuse pictures differ "
-      "by "
-      "3.1 % after that). Therefore, specular2 is 19 % larger, which is right only if the two renderers have "
-      "different light (check the diffuse of both models; --no-irradiance-matching keeps the light "
-      "unchanged, "
-      "--accept-light continues anyway)");
+  CHECK(light_remark({1.1863, 0.031}) ==
+        "diffuse matches only if the light of the source is multiplied by 1.186 (the diffuse pictures differ "
+        "by 3.1 % after that). Therefore, specular2 is 19 % larger, which is right only if the two renderers "
+        "have different light (check the diffuse of both models; --no-irradiance-matching keeps the light "
+        "unchanged, --accept-light continues anyway)");
 }
 
 TEST_CASE("light: a table is checked by what its comments record") {

@@ -128,8 +128,7 @@ TEST_CASE("A failed material keeps the extension in its lists", "[assets]") {
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.materials[1].failure ==
         "an animation (KHR_animation_pointer) changes a value that this conversion replaces (remove this "
-        "channel of "
-        "the animation)");
+        "channel of the animation)");
   CHECK(result.text.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
         std::string::npos);
   CHECK(result.warnings ==

@@ -204,8 +204,7 @@ TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
       R"({"KHR_animation_pointer":{"pointer":"/materials/0/pbrMetallicRoughness/roughnessFactor"}}}}]}]})";
   CHECK(convert_gltf(MemorySource(animated), "file", to_specgloss()).materials.at(0).failure ==
         "an animation (KHR_animation_pointer) changes a value that this conversion replaces (remove this "
-        "channel of "
-        "the animation)");
+        "channel of the animation)");
 }
 
 TEST_CASE("Core materials come back from spec-gloss", "[assets]") {

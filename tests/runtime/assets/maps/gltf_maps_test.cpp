@@ -236,8 +236,7 @@ TEST_CASE("Maps of core that do not lie on one grid are named", "[assets]") {
       core_textured(R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1,"texCoord":1})"));
   CHECK(failures_of(bytes, specgloss_target()).front() ==
         "its base color texture lies on TEXCOORD_0, its metallic roughness texture on TEXCOORD_1, and both "
-        "decide "
-        "on specular color (bake both with one set of UVs, for example in Blender)");
+        "decide on specular color (bake both with one set of UVs, for example in Blender)");
 }
 
 TEST_CASE("Compaction gives places of spare images to new ones, and cuts their bytes", "[assets]") {
