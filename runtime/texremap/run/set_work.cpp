@@ -296,7 +296,7 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     if (work.effect->written.empty())
       throw usage_error(report.inputs.front().string() + ": does not change any input of " +
                         chosen_.info().target.model +
-                        ", so there is no map to write (give only numbers to print the result)");
+                        ", so texremap would write no map (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
   const RoughnessEncoding width = written_width(choice, set, usual_width(set));
