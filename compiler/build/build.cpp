@@ -288,7 +288,7 @@ class Builder {
   void require_time() const {
     if (execution_.cancelled != nullptr && *execution_.cancelled)
       throw Error(ErrorKind::kInterrupted,
-                  "build: interrupted (finished items are kept; run it again to continue)");
+                  "build: interrupted (finished items are kept; run the same command again to continue)");
   }
 
   Fit chain_of(const DerivedItem& chain, const std::string& id) const {

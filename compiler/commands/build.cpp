@@ -9,6 +9,7 @@
 #include "commands/commands.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
+#include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/error.hpp"
 #include "worker/renderer_options.hpp"
@@ -30,7 +31,8 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
-    throw Error(ErrorKind::kInput, command.folders.fits.string() + ": " + std::to_string(reasons.size()) +
+    throw Error(ErrorKind::kInput, command.folders.fits.string() + ": " + counted(reasons.size(), "item") +
+                                       (reasons.size() == 1 ? " is" : " are") +
                                        " out of date (run `remapc build`)");
 }
 
@@ -45,7 +47,7 @@ std::string stages_text(const BuiltItem& item) {
   };
   add("sweep", item.sweep_seconds);
   if (!text.empty())
-    text += ", of it " + seconds_text(item.picture_seconds) + " for " + std::to_string(item.pictures) +
+    text += ", including " + seconds_text(item.picture_seconds) + " for " + std::to_string(item.pictures) +
             " pictures";
   add("fit", item.fit_seconds);
   add("lowering", item.lowering_seconds);
@@ -77,9 +79,9 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     return;
   }
   for (const std::string& id : result.pruned)
-    std::cerr << id << ": not in the manifest any more; files removed\n";
+    std::cerr << id << ": no longer in the manifest, so its files were removed\n";
   for (const std::string& id : vanished)
-    std::cerr << id << ": not in the manifest any more; its files are kept"
+    std::cerr << id << ": no longer in the manifest; its files are kept"
               << (command.prune ? " because they were edited after the last build"
                                 : " (--prune removes them)")
               << "\n";

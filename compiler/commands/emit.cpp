@@ -105,7 +105,7 @@ void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
     throw Error(ErrorKind::kUsage, options.all
                                        ? "--all: cannot be used together with fits (remove --all or the fits)"
-                                       : "no fits given (give fits, or use --all)");
+                                       : "no fits given (write remapc emit FIT, or remapc emit --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");

@@ -72,7 +72,9 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
   require_same_models(fit, table);
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
-  if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
+  if (rows.empty())
+    throw input_error(table.name + ": no usable rows in the domain of " + fit.id +
+                      " (give a table with rows in this domain)");
   const Residuals residuals = residuals_of(rows, fit);
   const ErrorFigures alpha = error_figures(residuals.alpha), specular = error_figures(residuals.specular);
   const bool same_table = sha256(bytes) == fit.table.sha256;
@@ -100,8 +102,10 @@ void print_errors(const Fit& fit, const EvalOptions& options) {
 
 void run(const EvalOptions& options) {
   if (options.table.path.empty() == (options.grid == 0))
-    throw usage_error(options.grid == 0 ? "eval: a table is required (give its file, or use --grid)"
-                                        : "--grid cannot be used with a table (remove one of the two)");
+    throw usage_error(
+        options.grid == 0
+            ? "eval: a table is required (write remapc eval FIT TABLE.csv, or remapc eval FIT --grid N)"
+            : "--grid cannot be used with a table (remove one of the two)");
   if (options.grid == 0 && !options.output.empty())
     throw usage_error("--output cannot be used with a table (remove it, or replace the table by --grid N)");
   require_new(options.output, options.force);

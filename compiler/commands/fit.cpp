@@ -105,7 +105,8 @@ void require_material_options(const FitCommand& command) {
                       "--swap to fit the inverse)");
   if (const std::string model(command.options.kind); !model.empty() && model != "mlp")
     throw usage_error("--model " + model + ": not available for a table of materials (use mlp)");
-  if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
+  if (!command.plot.empty())
+    throw usage_error("--plot: not available for a table of materials (remove this option)");
 }
 
 MaterialNetworkOptions network_options(const FitCommand& command, const Command& app) {
@@ -186,9 +187,10 @@ void lower_if_possible(const FitCommand& command, Fit* fit) {
     add_converter(fit, command.tolerance);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNumeric) throw;
-    print_message("remapc", "warning: " + fit->id +
-                                ": neither texremap nor emit can use this fit: it cannot be lowered (" +
-                                error.what() + ")");
+    print_message("remapc",
+                  "warning: " + fit->id +
+                      ": texremap and remapc emit cannot use this fit, because it cannot be lowered (" +
+                      error.what() + ")");
   }
 }
 

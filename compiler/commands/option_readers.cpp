@@ -46,7 +46,7 @@ ParameterSetting::ParameterSetting(const std::string& option, const std::string&
   std::istringstream items(word.substr(name.size() + 1));
   for (std::string item; std::getline(items, item, ',');) {
     const auto value = parse_number(item);
-    if (!value) fail("'" + item + "' is not a number");
+    if (!value) fail("'" + item + "' is not a number (write NAME=VALUE or NAME=R,G,B)");
     values.push_back(*value);
   }
 }

@@ -146,7 +146,9 @@ void run_sets(const Command& given, const PreviewCommand& command) {
       throw usage_error(std::string(option) + ": applies to fits only (remove this option)");
   const bool has_renderer = !command.renderer_before.empty() || !command.renderer_after.empty();
   if (given.count("--worker") > 0 && !has_renderer)
-    throw usage_error("--worker: needs --renderer-before or --renderer-after for texture sets");
+    throw usage_error(
+        "--worker: for texture sets, also name the worker as a renderer (add --renderer-before NAME or "
+        "--renderer-after NAME)");
   if (command.lights.size() > 1) throw usage_error("--light: give one light for texture sets");
   const std::string word = command.lights.empty() ? "studio" : command.lights.front();
   const PreviewLight light = preview_light(word, command.distance, command.exposure);

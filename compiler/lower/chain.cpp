@@ -84,9 +84,9 @@ std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
     const double alpha = states(steps, {at(first.alpha, k, kCoarse), specular})[i].alpha;
     reached = {std::min(reached.min, alpha), std::max(reached.max, alpha)};
   }
-  throw Error(ErrorKind::kInput, "chain: the domains of its steps do not meet: before " + steps[i].id +
-                                     " alpha is " + range_text(reached) + "; it covers alpha " +
-                                     range_text(steps[i].domain.alpha) + ", specular to " +
+  throw Error(ErrorKind::kInput, "chain: the domains of the steps do not meet: before " + steps[i].id +
+                                     ", alpha is " + range_text(reached) + ", but this fit covers alpha " +
+                                     range_text(steps[i].domain.alpha) + " and specular to " +
                                      number_text(steps[i].domain.specular.max));
 }
 

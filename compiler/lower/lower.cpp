@@ -81,8 +81,8 @@ ConverterData lower(const Fit& fit, double tolerance) {
   if (!is_proportional(fit.mapping) && fit.domain.specular.min <= 0.0)
     throw Error(ErrorKind::kNumeric,
                 fit.id +
-                    ": target specular does not vanish with the source's, so its domain must "
-                    "begin above specular 0");
+                    ": target specular is above 0 where source specular is 0, so the domain of the fit "
+                    "must begin above specular 0");
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = tolerance, specular_within = tolerance * unit;

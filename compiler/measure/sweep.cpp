@@ -68,18 +68,22 @@ void require_options(const SweepOptions& options, const ModelDescription& source
 void require_alphas(const SweepOptions& options, const ModelDescription& source) {
   for (const MappedTexel& sample : options.samples)
     if (!source.alpha.contains(sample.alpha))
-      throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
-                                         " is out of range (choose samples from " + range_text(source.alpha) +
-                                         ")");
+      throw Error(
+          ErrorKind::kUsage,
+          source.name + ": alpha " + number_text(sample.alpha) +
+              " of a sample is out of range (choose --roughness-range or --samples-of with alphas from " +
+              range_text(source.alpha) + ")");
 }
 
 void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   const Range speculars = source.specular_range();
   for (const MappedTexel& sample : options.samples)
     if (!speculars.contains(sample.specular))
-      throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
-                                         " is out of range (choose samples from " + range_text(speculars) +
-                                         ")");
+      throw Error(
+          ErrorKind::kUsage,
+          source.model.name + ": specular " + number_text(sample.specular) +
+              " of a sample is out of range (choose --specular-range or --samples-of with speculars from " +
+              range_text(speculars) + ")");
 }
 
 // Pictures are floats, so digits after the ninth have no meaning.

@@ -45,7 +45,8 @@ Noise measure(const Renderer& renderer, const ModelDescription& model, const Lig
   if (needed > kMostSeeds)
     throw Error(ErrorKind::kInput,
                 model.name + ": pictures of two seeds differ by " + percent(noise.level) + " rms; " +
-                    number_text(needed) + " pictures would have to be averaged to reduce that to " +
+                    number_text(needed) +
+                    " pictures would have to be averaged to reduce this difference to " +
                     percent(kSteadyNoise) + ", the limit is " + std::to_string(kMostSeeds) +
                     " (use a model without noise, or more samples per pixel in the worker)");
   noise.pictures = std::max(1, static_cast<int>(needed));

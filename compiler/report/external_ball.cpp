@@ -37,7 +37,7 @@ void set_map(const ModelDescription& model, ParameterRole role, const TexturedBa
     add_note(notes,
              model.name + ": " + parameter.name + " of " +
                  fixed(100.0 * static_cast<double>(beyond) / static_cast<double>(ball.texels.size()), 1) +
-                 " % of the texels is out of range, and is shown as the closest value of " +
+                 " % of the texels are out of range, and are shown as the closest value in " +
                  number_text(parameter.range.min) + " to " + number_text(parameter.range.max));
   material.parameters.erase(parameter.name);
   material.maps[parameter.name] = std::move(map);

@@ -40,7 +40,7 @@ ProbedModel make_end(const Renderer& renderer, const Fit& fit, const std::string
   ProbedModel end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
   if (diffuse > 0.0 && !end.model.has(ParameterRole::kDiffuse))
     throw Error(ErrorKind::kUsage,
-                "--diffuse: " + side.model + " has no diffuse reflectance (leave the option out)");
+                "--diffuse: " + side.model + " has no diffuse reflectance (remove this option)");
   if (end.model.parameter(ParameterRole::kSpecular).name != side.specular)
     end.response = specular_response(renderer, end.model);
   return end;

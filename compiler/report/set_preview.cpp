@@ -104,7 +104,8 @@ std::vector<MaterialLooks> first_looks(const ConvertPlan& plan, const JobLooks& 
 }  // namespace
 
 SetPreview preview_sets(const ConvertPlan& plan, const SetPreviewOptions& options) {
-  if (plan.list.jobs.empty()) throw usage_error("preview: no texture set and no asset found");
+  if (plan.list.jobs.empty())
+    throw usage_error("preview: no texture set and no asset found (check the path, or add --recursive)");
   BallStudio studio(options);
   const JobLooks looks(plan, studio.models_of(options.renderer_before, "--renderer-before"),
                        studio.models_of(options.renderer_after, "--renderer-after"));

@@ -41,7 +41,8 @@ std::vector<Fit> chosen_fits(const ReachCommand& command, const std::filesystem:
     if (command.ids.empty() ? is_compared : is_asked_for) chosen.push_back(std::move(fit));
   }
   if (chosen.empty() || chosen.size() < command.ids.size())
-    throw usage_error("reach: " + folder.string() + " does not hold all of these fits");
+    throw usage_error("reach: " + folder.string() +
+                      " does not contain all of these fits (check the ids, or give --fits FOLDER)");
   return chosen;
 }
 

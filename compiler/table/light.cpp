@@ -23,11 +23,11 @@ std::string light_remark(const LightMatch& match) {
   const double change = std::fabs(match.scale - 1.0);
   if (!(change > kSaidLightChange || match.diffuse_error > kSaidLightChange)) return "";
   const std::string left = "the diffuse pictures differ by " + percent(match.diffuse_error);
-  if (!(change > kSaidLightChange)) return left + " (specular is not changed by it)";
-  std::string remark = "the source's light is multiplied by " + number_text(rounded(match.scale, 4)) +
-                       " to match diffuse, after which " + left + ": specular2 is " +
-                       change_text(match.scale) +
-                       " for it, which is right only if the lights of the renderers differ";
+  if (!(change > kSaidLightChange)) return left + " (this does not change specular)";
+  std::string remark = "diffuse matches only if the light of the source is multiplied by " +
+                       number_text(rounded(match.scale, 4)) + " (" + left +
+                       " after that). Therefore, specular2 is " + change_text(match.scale) +
+                       ", which is right only if the two renderers have different light";
   if (is_wrong_light(match))
     remark +=
         " (check the diffuse of both models; --no-irradiance-matching keeps the light unchanged, "

@@ -24,7 +24,8 @@ void read_stroke_image(const std::filesystem::path& image, const MaterialRef& ma
   const auto width = static_cast<std::size_t>(layout.width), height = static_cast<std::size_t>(layout.height);
   if (width != material.width() || height != material.height())
     throw input_error(image.string() + ": size " + size_text(width, height) + " does not match the maps of " +
-                      material.name() + " (" + size_text(material.width(), material.height()) + ")");
+                      material.name() + " (" + size_text(material.width(), material.height()) +
+                      ") (make the image " + size_text(material.width(), material.height()) + ")");
   const std::vector<std::byte> texels = texels_of(reader);
   for (std::size_t c = 0; c < layout.channels.size(); ++c)
     use(channel_values(layout, c, texels), static_cast<int>(c) == layout.alpha_channel);

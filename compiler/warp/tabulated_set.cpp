@@ -148,7 +148,7 @@ void read_index_map(const fs::path& folder, TabulatedMaterial& material) {
                                  [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
     throw input_error(folder.string() + ": " + material.table.filename().string() +
-                      " requires a map of its entries (add index.exr, .png or .tif)");
+                      " requires a map of its entries (add index.exr, index.png or index.tif)");
   ImageReader image(folder / *name);
   const ImageLayout& layout = image.layout();
   if (layout.channels.size() != 1)

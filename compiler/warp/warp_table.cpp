@@ -101,8 +101,8 @@ CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMat
     entries.indices.push_back(static_cast<std::uint16_t>(place->second));
   }
   if (known.size() > kLargestPalette)
-    throw usage_error("exact: the table needs " + std::to_string(known.size()) + " texels of " + target.name +
-                      ", more than " + std::to_string(kLargestPalette) + " (remove --exact)");
+    throw usage_error("--exact: the table needs " + std::to_string(known.size()) + " texels of " +
+                      target.name + ", more than " + std::to_string(kLargestPalette) + " (remove --exact)");
   return entries;
 }
 

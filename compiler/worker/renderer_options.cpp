@@ -13,17 +13,16 @@ void add_renderer_options(Command& app, RendererOptions& options) {
                  "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
                  "may be repeated")
       ->allow_extra_args(false);
-  app.add_option(
-      "--worker-folder FOLDER", options.settings.folder,
-      "Existing folder through which workers hand over pictures; one that all machines share if they "
-      "run on others (default: in memory)");
+  app.add_option("--worker-folder FOLDER", options.settings.folder,
+                 "Existing folder in which workers write their pictures; if workers run on other machines, a "
+                 "folder that all machines share (default: in memory)");
   app.add_option("--worker-processes", options.settings.processes,
                  "Processes of one worker at once, at most; 0: one per core");
   app.add_option("--worker-timeout", options.settings.seconds, "Seconds to wait for an answer of a worker")
       ->positive();
   app.add_option("--cache FOLDER", options.cache,
                  "Folder for pictures of workers (default: remap/pictures in the user's cache)");
-  app.add_flag("--no-cache", options.no_cache, "Render every picture and keep none");
+  app.add_flag("--no-cache", options.no_cache, "Render every picture again, and keep none in the cache");
 }
 
 WorkerSettings worker_settings(const RendererOptions& options) {

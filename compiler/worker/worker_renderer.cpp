@@ -202,14 +202,15 @@ std::vector<std::string> WorkerRenderer::remarks() const {
   std::vector<std::string> remarks;
   if (lost_ > 1)
     remarks.push_back("worker " + entry_.name + ": " + std::to_string(lost_) +
-                      " processes were lost; others rendered their pictures");
+                      " processes were lost; other processes rendered their pictures");
   if (!cache_) return remarks;
   if (damaged_ > 1)
     remarks.push_back("worker " + entry_.name + ": " + std::to_string(damaged_) + " pictures of the cache " +
-                      settings_.cache->string() + " were damaged; they were rendered again");
+                      settings_.cache->string() + " were damaged, and were rendered again");
   for (const std::string& version : cache_->other_versions())
     remarks.push_back("worker " + entry_.name + ": pictures of " + version + " in the cache " +
-                      settings_.cache->string() + " are not used; this is " + description_.renderer);
+                      settings_.cache->string() + " are not used, because the renderer is now " +
+                      description_.renderer);
   return remarks;
 }
 

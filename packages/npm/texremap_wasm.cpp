@@ -114,7 +114,8 @@ Json open_converter(const Field& request) {
   if (request.contains("fit")) {
     auto fit = fitted_converter_from_json(request["fit"].any_text(), "fit");
     auto* const data = std::get_if<ConverterData>(&fit);
-    if (data == nullptr) throw input_error("fit: is of whole materials (give a fit of width and specular)");
+    if (data == nullptr)
+      throw input_error("fit: converts whole materials (give a fit of roughness and specular)");
     held.of_fit = make_converter(*data, best_instruction_set());
     held.source = held.of_fit->info().source.roughness;
     held.target = held.of_fit->info().target.roughness;

@@ -157,7 +157,7 @@ Fix number_fix(const CheckedMaterial& material, const MaterialUse& use, std::vec
     return "set " + use.factor_name + " to " + number + " in " + material.path.filename().string() +
            ", and remove the map";
   return "remove the map, and use the number " + number + (values.size() > 1 ? " (linear)" : "") +
-         " instead of it";
+         " instead of the map";
 }
 
 // Returns true if a role of the material uses the channel.
@@ -345,7 +345,7 @@ void bad_values(const CheckedMaterial& material, const GltfConsumer*, const Rule
     findings.push_back({rule.name, Confidence::kCertain, material.maps[use.map].shown, "",
                         "has values that are not " + std::string(role_name(use.role)) + ": " + what,
                         image_fix(material, material.maps[use.map],
-                                  has_range ? "move them into the range from 0 to 1"
+                                  has_range ? "move these values into the range from 0 to 1"
                                             : "fill such texels from their neighbours",
                                   has_range ? "--fixnan box3 --clamp:min=0:max=1" : "--fixnan box3")});
   });
@@ -363,8 +363,8 @@ void metallic_greys(const CheckedMaterial& material, const GltfConsumer*, const 
     findings.push_back({rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
                         "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
                             " of the map; materials are metal or not, and greys belong to edges",
-                        "if it was made from a specular map, convert the original maps of the specular "
-                        "workflow again"});
+                        "if this map was made from a specular map, convert the original specular maps "
+                        "again"});
   });
 }
 
@@ -403,11 +403,12 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const NormalShares shares = normals_of(rgb);
     constexpr double kUnit = 0.8, kInwards = 0.1;
     if (shares.unit < kUnit || shares.inwards < kInwards) return;
-    findings.push_back({rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
-                        percent(shares.inwards) +
-                            " of its normals point into the surface: they are of world or object space, "
-                            "not of tangent space",
-                        "bake the map again in tangent space; texremap cannot convert it"});
+    findings.push_back(
+        {rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
+         percent(shares.inwards) +
+             " of the normals point into the surface, so the map is in world space or object space, "
+             "not in tangent space",
+         "bake the map again in tangent space, because texremap cannot convert it"});
   });
 }
 
@@ -468,7 +469,7 @@ void wrong_texture(const CheckedMaterial& material, const GltfConsumer*, const R
     const bool looks_like_normals = shares.unit > 0.97 && shares.inwards < 0.01 && shares.mean[2] > 0.85;
     if (use.role != Role::kNormal && use.role != Role::kOther && looks_like_normals &&
         named.insert(use.map).second)
-      add(use, Confidence::kLikely, "its texels are unit normals of tangent space");
+      add(use, Confidence::kLikely, "its texels are tangent-space normals");
     const bool has_blue = !is_constant(*rgb[2]);  // maps of two channels have no blue
     if (use.role == Role::kNormal && shares.unit < 0.3 && has_blue && named.insert(use.map).second)
       add(use, Confidence::kLikely, percent(1.0 - shares.unit) + " of its texels are not unit vectors");

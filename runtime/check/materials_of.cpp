@@ -113,7 +113,7 @@ FoundMaterials materials_of(const fs::path& path, const Naming& naming) {
   if (fs::is_directory(path, ignored)) {
     add_folder(path, naming, found);
   } else if (!fs::exists(path, ignored)) {
-    throw input_error(display_path(path) + ": does not exist");
+    throw input_error(display_path(path) + ": does not exist (check the path)");
   } else if (is_asset(path)) {
     add_asset(path, found);
   } else {

@@ -111,7 +111,7 @@ void srgb_data(const CheckedMaterial& material, const GltfConsumer*, const Rule&
       continue;
     add(map, Confidence::kLikely,
         "holds " + std::string(role_name(use.role)) +
-            ", which is data, but its file is tagged sRGB: programs that follow the tag decode it",
+            ", which is data, but its file is tagged sRGB: programs that follow the tag change its values",
         image_fix(material, map, "read it as raw (non-color), or remove the tag",
                   "--attrib oiio:ColorSpace Linear --eraseattrib Exif:ColorSpace "
                   "--eraseattrib remap:color_space"));

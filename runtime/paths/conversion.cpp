@@ -70,8 +70,8 @@ NamedEnd named_end(const std::string& name, std::optional<WorkflowKind> kind, co
   NamedEnd end{name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
     throw usage_error(word + " " + std::string(name_of(kWorkflowKinds, *kind)) + ":" + name + ": the model " +
-                      name + " has the " + std::string(kind_name(end.model->end)) + " workflow (use " + name +
-                      ")");
+                      name + " has the " + std::string(kind_name(end.model->end)) + " workflow (use " + word +
+                      " " + name + ")");
   return end;
 }
 
@@ -133,11 +133,13 @@ void choose_translation(const ConversionRequest& request, ConversionChoice& choi
   };
   const auto refuse = [&](const std::string& word) {
     throw usage_error(word + ": has no effect between " + std::string(request.source.word()) + " and " +
-                      std::string(request.target.word()) + ", whose inputs are translated (remove it)");
+                      std::string(request.target.word()) + ", because formulas convert every input (remove " +
+                      word + ")");
   };
   if (*target == Surface::kPrincipled)
-    throw usage_error(request.words.target + " " + std::string(request.target.word()) +
-                      ": no translation leads to the Principled BSDF (use --to gltf, which Blender imports)");
+    throw usage_error(request.words.target + " " + std::string(request.target.word()) + ": materials of " +
+                      std::string(request.source.word()) +
+                      " cannot become the Principled BSDF (use --to gltf, which Blender imports)");
   if (request.dielectric_f0) refuse(request.words.dielectric_f0);
   for (const ModelName* model : {&request.source, &request.target})
     if (model->diffuse) refuse(std::string(diffuse_convention_name(*model->diffuse)));
@@ -186,7 +188,7 @@ void choose_f0(const ConversionRequest& request, ConversionChoice& choice) {
 
 void note_alias(const ModelName& given, ConversionChoice& choice) {
   if (given.alias != nullptr)
-    choice.notes.push_back(std::string(given.alias->name) + " means " + given.name + " (" +
+    choice.notes.push_back(std::string(given.alias->name) + " uses the model " + given.name + " (" +
                            std::string(given.alias->meaning) + ")");
 }
 

@@ -186,7 +186,11 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
-      throw Error(ErrorKind::kUsage, model + ": the path would use this model twice (choose another model)");
+      throw Error(
+          ErrorKind::kUsage,
+          model + (model == request.source && model == request.target && request.via.empty()
+                       ? ": source and target are the same model (choose another model for one of them)"
+                       : ": the path would use this model twice (choose another model)"));
     nodes.push_back(node(model));
   };
   add(request.source, "source model", sources);
@@ -204,11 +208,12 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
       throw Error(ErrorKind::kUsage,
-                  from + " to " + to + ": no converters lead there (" + from + " converts to " +
-                      (reached.empty() ? "no model" : joined(reached, ", ")) +
-                      (reached.empty() ? "" : "; most similar name: " + closest_name(to, reached)) +
-                      "; models that convert to " + to + ": " +
-                      (reaching_it.empty() ? "none" : joined(reaching_it, ", ")) + ")");
+                  from + " to " + to + ": no converters join these models (" + from + " can become " +
+                      (reached.empty() ? "no other model" : joined(reached, ", ")) +
+                      (reached.size() < 2 ? "" : "; most similar name: " + closest_name(to, reached)) + "; " +
+                      (reaching_it.empty() ? "no model can become " + to
+                                           : to + " can be made from " + joined(reaching_it, ", ")) +
+                      ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }

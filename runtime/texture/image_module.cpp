@@ -22,20 +22,20 @@ const ImageLibrary& load_image_library() {
     throw Error(ErrorKind::kInput, file.string() + ": " + what);
   };
   if (std::error_code ignored; !fs::exists(file, ignored))
-    fail("file not found; it reads and writes images (install it with the programs, by cmake --install)");
+    fail("file not found, but the programs need this file for images (install them by cmake --install)");
   // The module is never unloaded, because the program may keep objects of the module until the end.
   void* const module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* const reason = ::dlerror();
-    fail(std::string("cannot be loaded, so that images can be neither read nor written: ") +
+    fail(std::string("cannot be loaded, so the programs cannot read or write images: ") +
          (reason != nullptr ? reason : "unknown reason") + " (install OpenImageIO)");
   }
   using Entry = const ImageLibrary* (*)(const char*);
   const auto entry = reinterpret_cast<Entry>(::dlsym(module, "remap_image_library"));
   const ImageLibrary* const library = entry != nullptr ? entry(kVersion) : nullptr;
   if (library == nullptr)
-    fail("belongs to another version than " + std::string(kVersion) +
-         " of the programs (install both by cmake --install)");
+    fail("is not of version " + std::string(kVersion) +
+         ", like the program (install both by cmake --install)");
   return *library;
 }
 

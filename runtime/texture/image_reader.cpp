@@ -10,7 +10,7 @@ namespace {
 
 std::shared_ptr<const InputFile> opened(const std::filesystem::path& path) {
   if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorKind::kInput, path.string() + ": is a folder, not an image file");
+    throw Error(ErrorKind::kInput, path.string() + ": is a folder, not an image file (give an image file)");
   return std::make_shared<const InputFile>(path);
 }
 

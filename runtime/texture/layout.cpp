@@ -78,7 +78,7 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
   file.name = trimmed(std::string_view(text).substr(0, sign));
   if (sign == std::string::npos || file.name.empty() || file.name.find('/') != std::string::npos)
     throw Error(ErrorKind::kUsage, option + ": '" + text +
-                                       "' is not a file of a layout (write NAME=CONTENT,..., as orm="
+                                       "' does not describe a file (write NAME=CONTENT,..., such as orm="
                                        "occlusion,roughness,metallic)");
   std::size_t channels = 0;
   for (const std::string& word : parts_between(std::string_view(text).substr(sign + 1), ',')) {
@@ -87,7 +87,7 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
   }
   if (channels != 1 && channels != 3 && channels != 4)
     throw Error(ErrorKind::kUsage, option + ": " + file.name + " has " + std::to_string(channels) +
-                                       " channels (use 1, 3 or 4; a color has three)");
+                                       " channels (use 1, 3 or 4; a color counts as three)");
   return file;
 }
 

@@ -5,10 +5,9 @@
 namespace remap {
 
 const ImageLibrary& load_image_library() {
-  throw Error(
-      ErrorKind::kInput,
-      "this texremap is built without a library of images, so that they can be neither read nor written "
-      "(use the Python or the npm package)");
+  throw Error(ErrorKind::kInput,
+              "this texremap was built without an image library, so it cannot read or write images "
+              "(use the Python or the npm package)");
 }
 
 }  // namespace remap

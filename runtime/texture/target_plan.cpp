@@ -45,7 +45,7 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
-      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder");
+      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder (choose another folder)");
   std::vector<fs::path> results;
   for (const PlannedFile& map : plan.maps) results.push_back(map.path);
   for (const PlannedFile& copy : plan.copies) results.push_back(copy.path);
@@ -75,7 +75,8 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
                                          plain(reader.layout().channels[place.channel].name) +
                                          " is used as both " + plain_name(*held) + " and " +
-                                         plain_name(parameter) + " (choose channels with FILE:CHANNEL)");
+                                         plain_name(parameter) +
+                                         " (choose another channel for one of them, such as orm.png:G)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};
@@ -334,11 +335,12 @@ void require_held(const TargetChoice& choice) {
   const auto lacks = [&](Parameter held, Parameter other) {
     return choice.layout.file_with(held) != nullptr && is_wanted(choice, other);
   };
-  const std::string start = "--layout: " + choice.layout.name + " cannot hold ";
+  const std::string start = "--layout " + choice.layout.name + ": cannot hold ";
   if (lacks(Parameter::kSpecular, Parameter::kMetallic))
-    throw Error(ErrorKind::kUsage, start + "metallic (use separate or orm)");
+    throw Error(ErrorKind::kUsage, start + "metallic (use --layout separate or --layout orm)");
   if (lacks(Parameter::kMetallic, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage, start + "diffuse and specular (use separate or specgloss)");
+    throw Error(ErrorKind::kUsage,
+                start + "diffuse and specular (use --layout separate or --layout specgloss)");
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
       throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
@@ -428,11 +430,11 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
       for (const TargetChannel& channel : part.channels)
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
-          throw usage_error(
-              map.path.string() +
-              ": would contain integers, but its roughness is an exponent "
-              "(write --output-encoding exponent=1000 if white means an exponent of 1000, as in MTL files; "
-              "OpenGL has 128; or --format exr)");
+          throw usage_error(map.path.string() +
+                            ": would contain integers, but its roughness is an exponent "
+                            "(use --format exr; or --output-encoding exponent=1000 if white means an "
+                            "exponent of 1000, as in MTL files; "
+                            "OpenGL has 128)");
     }
 }
 

@@ -220,7 +220,8 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
       throw Error(ErrorKind::kUsage,
                   name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
   throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + ", but needs " +
-                                     expected + " (choose with FILE:CHANNEL)");
+                                     expected + " (choose a channel, such as " + name.file.string() + ":" +
+                                     plain(known.front()) + ")");
 }
 
 // Finds the named channels, or the color channels, in a file. Only one part of the file may have them.
@@ -241,8 +242,8 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
-  throw Error(ErrorKind::kUsage, name.file.string() + ": several of its parts (" + listed(part_names) +
-                                     ") have such channels (choose with FILE:PART.CHANNEL or "
+  throw Error(ErrorKind::kUsage, name.file.string() + ": several parts of the file (" + listed(part_names) +
+                                     ") have such channels (choose a part: FILE:PART.CHANNEL or "
                                      "FILE:PART.R,PART.G,PART.B)");
 }
 
@@ -351,7 +352,8 @@ std::set<std::size_t> TextureSet::maps_of_material() const {
 std::size_t TextureSet::first_map() const {
   for (const auto& [parameter, values] : parameters)
     if (values.is_map()) return values.channels.front().map;
-  throw Error(ErrorKind::kUsage, listed_options(*this) + ": all are numbers (give at least one map)");
+  throw Error(ErrorKind::kUsage,
+              listed_options(*this) + ": all of these are numbers (give at least one map)");
 }
 
 TextureSet open_texture_set(const TextureSetRequest& request) {
@@ -388,9 +390,10 @@ void require_scale(const TextureSet& set, RoughnessEncoding width) {
   if (width != RoughnessEncoding::kExponent || map == nullptr || !map->factors.empty()) return;
   const ChannelPlace place = map->channels.front();
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
-    throw input_error(set.maps[place.map].path().string() +
-                      ": contains integers, but must contain exponents (--factor roughness=NUMBER sets the "
-                      "exponent of white: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
+    throw input_error(
+        set.maps[place.map].path().string() +
+        ": contains integers, which texremap cannot read as exponents (set the exponent of white by --factor "
+        "roughness=NUMBER: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
 }
 
 std::vector<std::string> remarks(const TextureSet& set) {

@@ -58,7 +58,7 @@ TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and 
     return require_success(session.remapc("fit t.csv --model parametric --form paper --lower " + tolerance +
                                           " --force -o fits"));
   };
-  CHECK(fit("1e-12").errors.find("warning: made_ward_to_made_as: neither texremap nor emit") !=
+  CHECK(fit("1e-12").errors.find("warning: made_ward_to_made_as: texremap and remapc emit cannot") !=
         std::string::npos);
   CHECK_FALSE(load_fit(path).converter.has_value());
   CHECK(session.remapc("show " + path).output.find("No header, because") != std::string::npos);

@@ -436,7 +436,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
       {"--layout separate", "convert in --from specular --to specular -o out --output-encoding roughness",
        "convert in --from specular --to specular -o out --output-encoding roughness --layout separate",
        legacy_set},
-      {"use uint16", one + "a.png --type half", one + "a.png --type uint16",
+      {"use --type uint16", one + "a.png --type half", one + "a.png --type uint16",
        [](S s) { s.map("in/a.png", {bumps}); }},
       {"--force", one + "../first/a.png", one + "../first/a.png --force",
        [](S s) {

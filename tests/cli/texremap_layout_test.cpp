@@ -206,7 +206,7 @@ TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is
   const Session session;
   write_orm_set(session);
   const ProcessResult told = require_success(session.texremap("convert in --to gltf -o out"));
-  CHECK_THAT(told.errors, Contains("--from is taken as metallic, by the maps of wood"));
+  CHECK_THAT(told.errors, Contains("texremap uses --from metallic, detected from the maps of wood"));
   CHECK(session.content("out/wood_occlusionRoughnessMetallic.png") ==
         session.content("in/wood_occlusionRoughnessMetallic.png"));
   const OIIO::ImageSpec spec = test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8);

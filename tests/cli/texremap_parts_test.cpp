@@ -195,12 +195,12 @@ TEST_CASE("texremap parts: files that are gone or have another size fail their s
   fs::remove(tree.path("in/f0/s0_spec.png"));
   tree.map("in/f1/s1_rough.tga", kGrey, OIIO::TypeUInt8, 40);
   fs::rename(tree.path("in"), tree.path("moved"));
-  CHECK_THAT(tree.texremap(kOfManifest + "out").errors, Contains("give the present folder as DIR"));
+  CHECK_THAT(tree.texremap(kOfManifest + "out").errors, Contains("give its new path as DIR"));
   const ProcessResult result = tree.texremap(kOfManifest + "out moved --json");
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors,
-             Contains("s0_spec.png: is in the manifest, but cannot be read (run texremap index again)") &&
-                 Contains("but the manifest lists"));
+  CHECK_THAT(result.errors, Contains("s0_spec.png: is in the manifest, but cannot be read: No such file or "
+                                     "directory (run texremap index again)") &&
+                                Contains("but the manifest lists"));
   std::string states = set_states(result.output);
   std::sort(states.begin(), states.end());
   CHECK(states == "ccccccff");

@@ -175,7 +175,8 @@ TEST_CASE("texremap: names that people use stand for models, in every command") 
   const std::string plain = path("gltf", "cycles-5/principled");
   CHECK(path("GLTF", "cycles-5/principled") == plain);
   const std::string named = path("unity", "Blender");
-  CHECK_THAT(named, Contains("unity means gltf (") && Contains("blender means cycles-5/principled ("));
+  CHECK_THAT(named, Contains("unity uses the model gltf (") &&
+                        Contains("blender uses the model cycles-5/principled ("));
   CHECK(named.ends_with(plain));
   const std::string values = " --roughness 0.5 --base-color 0.8,0.4,0.2 --metallic 1 --json";
   const nlohmann::json a = nlohmann::json::parse(

@@ -69,7 +69,7 @@ TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
   const ProcessResult result = require_success(sets.texremap(words));
   CHECK_THAT(result.errors,
              Contains("warning: " + map +
-                      ": is not quite grey: its channels differ from G, which is used, by at most "));
+                      ": is not exactly grey: the channels differ from G, which is used, by at most "));
   if (extension == "png")
     CHECK_THAT(result.errors, Contains("by at most " + std::to_string(tint) + " of 255"));
   CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
@@ -174,8 +174,7 @@ TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports][sl
     CHECK(green("--from metal-rough --to unity", "T_Rock_N.png") == 100);
     CHECK_THAT(sets.texremap("convert in --from substance --to unity -o two").errors,
                Contains("in/T_Rock_N.png: green is kept, because neither the file name nor --from shows "
-                        "whether the map is "
-                        "OpenGL or DirectX; unity reads OpenGL (green up)"));
+                        "whether the map is OpenGL or DirectX; unity reads OpenGL (green up)"));
   }
 }
 

@@ -74,7 +74,7 @@ expect 0 "1 part: 1 asset converted, 0 failed" merge-reports parts_out
 
 # A build without images must refuse maps and print their names.
 : >a_roughness.png
-expect 1 "is built without a library of images" convert --from mitsuba/ward --to mitsuba/ggx --roughness a_roughness.png \
+expect 1 "was built without an image library" convert --from mitsuba/ward --to mitsuba/ggx --roughness a_roughness.png \
   --specular 0.04 -o maps
 expect 1 "nowhere.gltf: cannot be read: No such file or directory" convert nowhere.gltf --to gltf -o out
 expect 2 "unknown model 'mitsuba/wrd' (closest: mitsuba/ward" path --from mitsuba/wrd --to mitsuba/ggx

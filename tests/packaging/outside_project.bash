@@ -27,7 +27,7 @@ convert_map() {
 expect_exit 0 convert_map
 mv "$prefix/lib/remap/images.so" "$work"
 expect_exit 1 convert_map
-expect_output "lib/remap/images.so: file not found; it reads and writes images (install it with the programs, by cmake --install)"
+expect_output "lib/remap/images.so: file not found, but the programs need this file for images (install them by cmake --install)"
 mv "$work/images.so" "$prefix/lib/remap"
 
 # The commands of README.md, and commands that look up fits, must also work in an empty folder outside of the tree.

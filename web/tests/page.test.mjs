@@ -158,7 +158,7 @@ describe('a folder that is served', { skip }, () => {
   test('models are told by the names of maps', { skip: skipNative }, () =>
     visited(server.url, async (visit) => {
       await visit.choose('#folder', path('specgloss'));
-      assert.match(await visit.convert(), /--from is taken as gltf-specgloss/);
+      assert.match(await visit.convert(), /texremap uses --from gltf-specgloss/);
       requireSame(filesOf(await visit.download()), await byProgram(visit, 'specgloss'));
     }));
 

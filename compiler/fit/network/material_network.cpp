@@ -50,7 +50,7 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
     rows.push_back(material);
   }
   if (rows.empty())
-    throw input_error(table.name + ": no row has status ok (a network needs some thousand rows)");
+    throw input_error(table.name + ": no row has status ok (a network needs thousands of rows)");
   return rows;
 }
 

@@ -545,7 +545,7 @@ def test_command(tmp_path, maps):
     assert dry.returncode == 0 and json.loads(line)["state"] == "converted" and not (tmp_path / "out.gltf").exists()
     assert not (tmp_path / "out_textures").exists()
     done = run(source, "--to", "gltf", "-o", tmp_path / "out.gltf")
-    assert done.returncode == 0 and "paint: converted, " in done.stderr and "1 converted, 0 left, 0 failed" in done.stderr
+    assert done.returncode == 0 and "paint: converted, " in done.stderr and "1 converted, 0 left unchanged, 0 failed" in done.stderr
     require_valid_gltf(tmp_path / "out.gltf")
     for words, message in (
         ((source, "--to", "gltf", "-o", tmp_path / "out.gltf"), "exists (use --force"),

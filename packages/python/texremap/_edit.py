@@ -139,7 +139,7 @@ class Edit:
         if not needed:
             return
         if len({self._given[name].place for name in needed}) > 1:
-            raise Error("its textures lie on different coordinates", "input")
+            raise Error("its textures use different texture coordinates (give all of them one set of UVs)", "input")
         rest = {name: np.zeros(np.size(self._defaults[name])) for name in self._given if name not in needed}
         given = {name: self._given[name] for name in needed}
         self._model = self._given[needed[0]]

@@ -244,7 +244,7 @@ class GltfWriter:
         if len(textures) < len(textured) or len({(t.path, t.wrap, t.place) for t in textures.values()}) > 1:
             return None
         if TILE in first.path:
-            raise Error(f"{textured[0]}: glTF has no tiles ({TILE})", "input")
+            raise Error(f"{textured[0]}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
         ending, is_grey, has_alpha = _header(first.path)
         if not ending:
             return None
@@ -271,7 +271,7 @@ class GltfWriter:
             if name in edit.baked:
                 tiles, (wrap, place) = edit.baked[name], edit.wrap_and_place()
                 if "" not in tiles:
-                    raise Error(f"{name}: glTF has no tiles ({TILE})", "input")
+                    raise Error(f"{name}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
                 arrays[name], more = tiles[""]
             else:
                 texture = edit.textures[name]
@@ -280,7 +280,7 @@ class GltfWriter:
             places.add(place)
             deep = deep or more
         if len(places) > 1:
-            raise Error(f"{' and '.join(textured)}: lie on different coordinates", "input")
+            raise Error(f"{' and '.join(textured)}: use different texture coordinates (give all of them one set of UVs)", "input")
         height, width = (max(values.shape[axis] for values in arrays.values()) for axis in (0, 1))
         four = np.ones((height, width, 4), np.float32)
         for name, values in arrays.items():
@@ -302,7 +302,7 @@ class GltfWriter:
 
     def _write_normal(self, holder, key, texture, name):
         if TILE in texture.path:
-            raise Error(f"{name}: glTF has no tiles ({TILE})", "input")
+            raise Error(f"{name}: glTF has no tiles ({TILE}; join the tiles to one image)", "input")
         strength = texture.scale[0] / 2
         is_plain = (_near(texture.scale, (2 * strength, 2 * strength, 2)) and _near(texture.bias, (-strength, -strength, -1)) and
                     texture.space != "sRGB" and texture.channels == "rgb" and _header(texture.path)[0])

@@ -43,7 +43,7 @@ def _end_of(given, name):
         if inner is None:
             raise Error(f"{name}: is connected to nothing", "input")
         given = inner
-    raise Error(f"{name}: its nodes form a circle", "input")
+    raise Error(f"{name}: its nodes refer to each other in a circle (remove one of the connections)", "input")
 
 
 def _numbers_of(given, name):

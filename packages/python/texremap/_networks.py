@@ -57,7 +57,7 @@ def texture_of(node, output, name, most=MOST_NODES) -> Union[Texture, Tuple[floa
     """Returns the texture or the constant that an output of a node gives. Raises :class:`Procedural` for
     others."""
     if most == 0:
-        raise Error(f"{name}: its nodes form a circle", "input")
+        raise Error(f"{name}: its nodes refer to each other in a circle (remove one of the connections)", "input")
     kind = node.kind
     if kind == "UsdUVTexture":
         return _uv_texture(node, output, name)
@@ -71,7 +71,7 @@ def texture_of(node, output, name, most=MOST_NODES) -> Union[Texture, Tuple[floa
         texture = _input_texture(node, "in", name, most)
         index = int(node.numbers("index", (0,))[0]) if kind == "extract" else _INDEX_OF_OUTPUT.get(output, 0)
         if texture.channels != "rgb" or not 0 <= index < 4:
-            raise Procedural(f"{name} comes from {node.name}.{output}, a channel of a channel")
+            raise Procedural(f"{name} comes from {node.name}.{output}, which reads a channel of a single channel")
         picks = slice(index, index + 1) if index < 3 else slice(0, 0)
         return texture._replace(channels="rgba"[index], scale=texture.scale[picks] or (1.0,), bias=texture.bias[picks] or (0.0,))
     if kind in ("multiply", "divide", "add", "subtract"):
@@ -142,7 +142,7 @@ def _image(node, output, name):
     if node.kind == "tiledimage":
         tiling = node.numbers("uvtiling", (1.0, 1.0))
         if any(node.numbers("uvoffset", (0.0, 0.0))):
-            raise Procedural(f"{name}: {node.name} has an offset of tiles")
+            raise Procedural(f"{name}: {node.name} has a uvoffset, which is not supported for tiles")
         place = place._replace(scale=tuple(float(a * b) for a, b in zip(place.scale, tiling)))
     scale = (1.0,) * (3 if channels == "rgb" else 1)
     if node.kind.startswith("gltf_"):
@@ -184,7 +184,7 @@ def _place(node, name, of):
 def _plain_place(reader, name, of):
     inner = _place(reader, name, of)
     if inner != Place(inner.primvar):
-        raise Procedural(f"{of}: {reader.name} is a transform of a transform")
+        raise Procedural(f"{of}: {reader.name} transforms coordinates that are already transformed, which is not supported")
     return inner
 
 
@@ -196,7 +196,7 @@ def _gltf_place(node, place, name):
     moved = _pivoted(place.primvar, node.numbers("scale", (1.0, 1.0)), node.numbers("rotate", (0.0,))[0], (offset[0], -offset[1]),
                      node.numbers("pivot", (0.0, 1.0)), order, f"{name}: {node.name}")
     if moved != Place(place.primvar) and place != Place(place.primvar):
-        raise Procedural(f"{name}: {node.name} is a transform of a transform")
+        raise Procedural(f"{name}: {node.name} transforms coordinates that are already transformed, which is not supported")
     return place if moved == Place(place.primvar) else moved
 
 
@@ -214,7 +214,7 @@ def _pivoted(primvar, scale, rotation, offset, pivot, order, name):
 
     if order == 1:
         if rotation % 360 and scale[0] != scale[1]:
-            raise Procedural(f"{name} scales after it rotates")
+            raise Procedural(f"{name} scales by two different factors after it rotates, which is not supported")
         moved = scaled(turned(rotation, (offset[0] - pivot[0], offset[1] - pivot[1])))
     else:
         moved = turned(rotation, scaled((-pivot[0], -pivot[1])))

@@ -37,7 +37,7 @@ class MaterialReport(NamedTuple):
 def require_output(source, output, endings, force):
     """Raises :class:`Error` if ``output`` has an unsuitable extension, is the input, or exists."""
     if os.path.splitext(output)[1].lower() not in endings:
-        raise Error(f"{output}: a result is {', '.join(endings[:-1])} or {endings[-1]}", "output")
+        raise Error(f"{output}: the file name must end with {', '.join(endings[:-1])} or {endings[-1]}", "output")
     if os.path.exists(output) and os.path.exists(source) and os.path.samefile(source, output):
         raise Error(f"{output}: is the input (choose another name)", "output")
     if os.path.exists(output) and not force:
@@ -65,5 +65,5 @@ def run(convert, output, as_json):
             print(f"texremap: {report.path}: {_line_of(report)}", file=sys.stderr)
     counts = [sum(report.state == state for report in reports) for state in ("converted", "left", "failed")]
     if not as_json:
-        print("texremap: {}: {} converted, {} left, {} failed".format(output, *counts), file=sys.stderr)
+        print("texremap: {}: {} converted, {} left unchanged, {} failed".format(output, *counts), file=sys.stderr)
     return 1 if counts[2] else 0

@@ -81,7 +81,7 @@ def read(texture, tile):
 
     path = texture.path.replace(TILE, tile)
     if _PACKED in path:
-        raise Error(f"{path}: is in a USDZ package, and must be converted (unpack it: usdunzip, or unzip)", "input")
+        raise Error(f"{path}: must be converted, but is in a USDZ package (unpack the package first, for example with unzip)", "input")
     image = Images().open(path, 0)
     layout = image.layout()
     if layout["width"] * layout["height"] > MOST_TEXELS:

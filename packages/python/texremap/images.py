@@ -405,11 +405,11 @@ def _output_spec(model, model_format, output, changes, path):
     if not output.supports("nchannels"):
         has_alpha = spec.alpha_channel >= 0
         if spec.nchannels - has_alpha not in (1, 3) or (has_alpha and not output.supports("alpha")):
-            fail(f"cannot hold the {spec.nchannels} channels of the source (use exr or tif)")
+            fail(f"cannot hold the {spec.nchannels} channels of the source (use --format exr or --format tif)")
     if not output.supports("channelformats"):
         spec.channelformats = ()
     if _is_mixed(spec) and not changes["type"]:
-        fail("with channels of several types is written by the C++ program alone (use --type)")
+        fail("with channels of several types can only be written by the C++ program (use --type)")
     kind = changes["type"] or _types(spec)[0]
     keeps_half = format == "tiff" and model_format == format and str(model.format) == "half" == kind
     stored = kind if keeps_half else _stored_type(format, kind)
@@ -468,7 +468,7 @@ class NewImage:
         output = self._output
         self._format = output.format_name()
         if len(parts) > 1 and not output.supports("multiimage"):
-            self._fail(f"format {self._format} cannot hold {len(parts)} parts (use exr or tif)")
+            self._fail(f"format {self._format} cannot hold {len(parts)} parts (use --format exr or --format tif)")
         model_format = parts[0][0].format
         self._specs = []
         for model, changes in parts:
@@ -518,7 +518,7 @@ class NewImage:
             is_level = level > 0 and self._output.supports("mipmap")
             self._check(self._output.open(self._unfinished, spec, "AppendMIPLevel" if is_level else "AppendSubimage"))
         if _types(self._output.spec()) != _types(spec):
-            self._fail(f"cannot be written: format {self._format} would change the pixel type")
+            self._fail(f"cannot be written: format {self._format} would change the pixel type (use exr or tif)")
         self._plane_is_open = True
 
     def write_rows(self, first_row, row_count, texels):
@@ -558,7 +558,7 @@ class NewImage:
                                             str(spec.format))
             is_whole = rows is not None and not image.geterror()
         if not is_whole:
-            self._fail("cannot be written completely")
+            self._fail("cannot be written completely (check the free space)")
 
     def abandon(self):
         self._output = None

@@ -108,12 +108,12 @@ def convert(source: Union[str, "os.PathLike[str]"], output: Union[str, "os.PathL
         raise Error(f"for: unknown importer '{importer}' (choose {' or '.join(MTLX_READERS)})")
     is_gltf = [path.lower().endswith(_GLTF_ENDINGS) for path in (source, output)]
     if to != "gltf" and is_gltf[1]:
-        raise Error(f"{output}: a glTF file cannot hold {to} (use --to gltf, or a .mtlx file)", "output")
+        raise Error(f"{output}: a glTF file cannot hold {to} (use --to gltf, or an output name *.mtlx)", "output")
     if importer and not is_gltf[1]:
-        raise Error(f"{output}: --for {importer} is about glTF files (name a .glb or .gltf file)", "output")
+        raise Error(f"{output}: --for {importer} applies only to glTF files (use an output name *.glb or *.gltf)", "output")
     require_output(source, output, (".mtlx", ".glb", ".gltf"), force)
     if all(is_gltf) and not importer:
-        raise Error(f"{source}: is glTF already (choose --for {' or --for '.join(MTLX_READERS)}, or a .mtlx file as the result)", "output")
+        raise Error(f"{source}: is glTF already (choose --for {' or --for '.join(MTLX_READERS)}, or use an output name *.mtlx)", "output")
     with tempfile.TemporaryDirectory(prefix="texremap-") as folder:
         reader = _reader_of(source, folder)
         if not reader.materials:

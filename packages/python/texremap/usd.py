@@ -115,7 +115,7 @@ class _MaterialEdit:
                 self.lost.append(failure.words_about(name))
                 sources[name] = default
             if isinstance(sources[name], Texture) and name == "ior":
-                raise Error("ior has a texture", "input")
+                raise Error("ior has a texture, but must be a number", "input")
         return sources
 
     def _find_normals(self):

@@ -28,7 +28,8 @@ MtlDocument::MtlDocument(std::string_view text, const std::string& context) : te
     const std::size_t end = end_of_line(at);
     add_line(at, end);
     if (statements_.size() > kMostMtlStatements)
-      throw input_error(context + ": has more than " + std::to_string(kMostMtlStatements) + " statements");
+      throw input_error(context + ": has more than " + std::to_string(kMostMtlStatements) +
+                        " statements (split it into several files)");
     at = end + ending_length(end);
   }
   if (!materials_.empty()) materials_.back().last = statements_.size();

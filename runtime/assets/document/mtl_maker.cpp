@@ -53,9 +53,10 @@ double blender_scale(MtlMaker maker) { return maker == MtlMaker::kBlender28 ? 90
 
 std::string maker_warning(MtlMaker maker) {
   const auto blender = [maker] {
-    return "Blender wrote it: roughness is 1 - sqrt(Ns / " + number_text(blender_scale(maker)) +
-           "), metallic is Ka if illum is 3, and Kd is not used if there is map_Kd (--from mtl reads "
-           "the file by the specification)";
+    return "was written by Blender: texremap reads roughness as 1 - sqrt(Ns / " +
+           number_text(blender_scale(maker)) +
+           "), metallic from Ka and illum, and ignores Kd if there is map_Kd (--from mtl reads "
+           "the file by the MTL specification)";
   };
   switch (maker) {
     case MtlMaker::kText:
@@ -64,8 +65,8 @@ std::string maker_warning(MtlMaker maker) {
     case MtlMaker::kBlender28:
       return blender();
     case MtlMaker::kNvdiffrec:
-      return "it has bsdf pbr: Ks holds roughness in green and metallic in blue (--from mtl reads it by "
-             "the specification)";
+      return "has the line bsdf pbr: texremap reads roughness and metallic from green and blue of Ks (--from "
+             "mtl reads the file by the MTL specification)";
   }
   return "";
 }

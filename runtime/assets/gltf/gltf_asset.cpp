@@ -82,7 +82,7 @@ std::vector<std::size_t> buffer_lengths(SpanValue root, const std::string& conte
     const std::optional<std::size_t> length = buffer["byteLength"].whole();
     if (!length)
       throw input_error(context + ": /buffers/" + std::to_string(lengths.size()) +
-                        ": its byteLength is not an integer");
+                        ": byteLength is not an integer (export the file again)");
     lengths.push_back(*length);
   }
   return lengths;
@@ -100,7 +100,8 @@ std::vector<std::string> check_chunk(SpanValue root, const GltfContainer& contai
     throw input_error(context + ": /buffers/0 has " + std::to_string(length) +
                       " bytes, but the binary chunk has " + std::to_string(size));
   if (size - length <= kMostPadding) return {};
-  return {"its binary chunk is " + std::to_string(size - length) + " bytes longer than its buffer"};
+  return {"the binary chunk is " + std::to_string(size - length) +
+          " bytes longer than the buffer that it holds"};
 }
 
 // Checks that a view lies within its buffer. `name` is for messages.
@@ -109,7 +110,7 @@ void check_view(SpanValue view, const std::vector<std::size_t>& lengths, const s
   const SpanValue offset_value = view["byteOffset"];
   const std::optional<std::size_t> offset = offset_value ? offset_value.whole() : std::size_t{0};
   if (!buffer || !length || !offset)
-    throw input_error(name + ": its buffer, byteOffset and byteLength are not integers");
+    throw input_error(name + ": buffer, byteOffset and byteLength must be integers (export the file again)");
   if (*buffer >= lengths.size())
     throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
                       counted(lengths.size(), "buffer"));
@@ -190,15 +191,16 @@ class GltfConversion {
  private:
   void require_gltf() {
     const std::optional<std::string> version = root_["asset"]["version"].text();
-    if (!version) throw input_error(source_.context + ": has no asset.version (it is not a glTF file)");
+    if (!version)
+      throw input_error(source_.context + ": is not a glTF file, because it has no asset.version");
     if (!version->starts_with("2."))
       throw input_error(source_.context + ": is glTF " + plain(*version, 20) +
                         ", but only glTF 2 can be read (convert it to glTF 2 first)");
     for (const SpanValue& entry : root_["extensionsRequired"].children())
       if (const std::string name = entry.text().value_or(""); !is_known_extension(name))
-        result_.warnings.push_back(
-            "requires " + plain(name) +
-            ", which texremap does not know: it stays, but may not fit the converted materials");
+        result_.warnings.push_back("requires " + plain(name) +
+                                   ", which texremap does not know: texremap keeps this extension, but it "
+                                   "may not match the converted materials");
   }
 
   // Finds the materials that animations change.
@@ -246,8 +248,9 @@ class GltfConversion {
     for (auto at = pointers_.lower_bound({index, ""}); at != pointers_.end() && at->first == index; ++at)
       for (const std::string& member : direction.replaced())
         if (at->second.starts_with("/" + member))
-          throw input_error("an animation changes it by " + std::string(kPointerExtension) +
-                            ", which would lose its target (remove that channel)");
+          throw input_error(
+              "an animation (" + std::string(kPointerExtension) +
+              ") changes a value that this conversion replaces (remove this channel of the animation)");
   }
 
   void write_all() {

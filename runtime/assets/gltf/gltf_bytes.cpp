@@ -27,12 +27,12 @@ SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, cons
 
 std::string data_of_uri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
-  if (comma == std::string_view::npos) throw input_error("its data URI has no data");
+  if (comma == std::string_view::npos) throw input_error("a data URI has no data (export the file again)");
   const std::string_view head = uri.substr(0, comma);
   const std::string data = percent_decoded(uri.substr(comma + 1));
   if (!head.ends_with(";base64")) return data;
   auto bytes = from_base64<std::string>(data);
-  if (!bytes) throw input_error("its data URI is not base64");
+  if (!bytes) throw input_error("a data URI is not base64 (export the file again)");
   return *std::move(bytes);
 }
 
@@ -49,7 +49,7 @@ std::string GltfBytes::of_image(std::size_t index) const {
   const SpanValue image = gltf_entry(images_, index, "image");
   if (const auto uri = image["uri"].text()) return of_uri(*uri);
   const std::optional<std::size_t> view = image["bufferView"].whole();
-  if (!view) throw input_error("an image has neither uri nor bufferView");
+  if (!view) throw input_error("an image has neither uri nor bufferView (export the file again)");
   return of_view(*view);
 }
 

@@ -34,13 +34,15 @@ GlbChunk chunk_at(const ByteSource& source, std::uint64_t at, const std::string&
   if (length > left - kChunkHeaderSize)
     throw input_error(context + ": the chunk at byte " + std::to_string(at) + " should have " +
                       std::to_string(length) + " bytes, but the file ends after " +
-                      std::to_string(left - kChunkHeaderSize) + " (it is cut off or damaged)");
+                      std::to_string(left - kChunkHeaderSize) +
+                      " (the file is cut off or damaged; copy or export it again)");
   return {number_in(header, 4), at, at + kChunkHeaderSize + length};
 }
 
 // Throws unless the file is as long as its header states.
 void require_header(const ByteSource& source, const std::string& context) {
-  if (source.size() < kHeaderSize) throw input_error(context + ": is cut off in its header");
+  if (source.size() < kHeaderSize)
+    throw input_error(context + ": is cut off in its header (copy or export the file again)");
   const std::string header = source.read(0, kHeaderSize);
   if (const std::uint32_t version = number_in(header, 4); version != 2)
     throw input_error(context + ": is a GLB file of version " + std::to_string(version) +
@@ -48,14 +50,14 @@ void require_header(const ByteSource& source, const std::string& context) {
   if (const std::uint64_t length = number_in(header, 8); length != source.size())
     throw input_error(context + ": its header states " + std::to_string(length) +
                       " bytes, but the file has " + std::to_string(source.size()) +
-                      " (it is cut off or damaged)");
+                      " (the file is cut off or damaged; copy or export it again)");
 }
 
 std::string without_padding(std::string json, GltfContainer& container) {
   const std::size_t end = json.find_last_not_of(std::string_view(" \0", 2));
   const std::string_view padding = std::string_view(json).substr(end == std::string::npos ? 0 : end + 1);
   if (padding.find('\0') != std::string_view::npos)
-    container.notes.emplace_back("its JSON is padded with zeros instead of the spaces that glTF requires");
+    container.notes.emplace_back("the JSON is padded with zeros, but glTF requires spaces");
   json.resize(json.size() - padding.size());
   return json;
 }
@@ -78,9 +80,11 @@ GltfContainer read_container(const ByteSource& source, const std::string& contex
     return container;
   }
   require_header(source, context);
-  if (source.size() == kHeaderSize) throw input_error(context + ": has no JSON chunk");
+  if (source.size() == kHeaderSize)
+    throw input_error(context + ": has no JSON chunk (the file is damaged; export it again)");
   const GlbChunk json = chunk_at(source, kHeaderSize, context);
-  if (json.type != kJsonChunk) throw input_error(context + ": its first chunk is not JSON");
+  if (json.type != kJsonChunk)
+    throw input_error(context + ": its first chunk is not JSON (the file is damaged; export it again)");
   require_short(json.content_size(), context);
   for (std::uint64_t at = json.end; at < source.size();) {
     container.chunks.push_back(chunk_at(source, at, context));

@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, 4> kTextureExtensions = {"EXT_texture_web
 std::string image_name(std::size_t index) { return "image " + std::to_string(index); }
 
 [[noreturn]] void refuse_transform(const char* name) {
-  throw input_error(std::string(kTransformExtension) + "." + name + ": cannot be read");
+  throw input_error(std::string(kTransformExtension) + "." + name + ": expected " +
+                    (std::string_view(name) == "rotation" ? "a number" : "two numbers"));
 }
 
 void read_transform_pair(SpanValue transform, const char* name, double (&pair)[2]) {
@@ -66,7 +67,7 @@ TextureInfo GltfImages::info_of(SpanValue texture_info) const {
   TextureInfo info;
   info.value = texture_info;
   const std::optional<std::size_t> index = texture_info["index"].whole();
-  if (!index) throw input_error("a texture without an index");
+  if (!index) throw input_error("a texture has no index (export the file again)");
   info.texture = *index;
   (void)gltf_entry(textures_, info.texture, "texture");
   info.tex_coord = texture_info["texCoord"].whole().value_or(0);

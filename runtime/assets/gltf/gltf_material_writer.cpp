@@ -62,13 +62,13 @@ void GltfMaterialWriter::carry_extras(SpanValue extras, SpanValue core, AssetMat
   if (!kept) return edits_.append_member(core, "extras", std::string(extras.raw()));
   if (!extras.is(SpanKind::kObject) || !kept.is(SpanKind::kObject)) {
     report.warnings.push_back("loses extras of " + from + ", because " + std::string(kCoreMember) +
-                              " has its own");
+                              " has the same member");
     return;
   }
   for (const SpanValue& member : extras.children())
     if (kept.find(member.key()))
       report.warnings.push_back("loses extras." + plain(member.key()) + " of " + from + ", because " +
-                                std::string(kCoreMember) + " has its own");
+                                std::string(kCoreMember) + " has the same member");
     else
       edits_.append_member(kept, member.key(), std::string(member.raw()));
 }

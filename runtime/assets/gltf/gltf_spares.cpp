@@ -155,7 +155,7 @@ class SpareFinder {
 GltfSpares find_spares(const SpannedJson& json, const GltfContainer& container,
                        const std::vector<MaterialEdit>& edits, std::vector<std::string>& warnings) {
   if (const std::string name = obscure_extension(json.root()); !name.empty()) {
-    warnings.push_back("is not compacted, because " + plain(name) + " may name its images or bytes");
+    warnings.push_back("keeps its unused images, because the extension " + plain(name) + " may use them");
     return {};
   }
   return SpareFinder(json, container).find(edits);

@@ -79,7 +79,8 @@ class SpecGlossToCore final : public GltfDirection {
     for (const std::string_view name : {kSpecularExtension, kIorExtension})
       if (material["extensions"][name])
         throw input_error("has " + std::string(name) +
-                          " already, which the exact form needs (convert it without --extensions)");
+                          " already, but --extensions write would have to add this extension (convert the "
+                          "file without --extensions)");
   }
 
   static void report_factors(const GltfMaterial& material, AssetMaterial& report) {

@@ -88,7 +88,7 @@ GltfMaterial read_material(SpanValue material, GltfWorkflow workflow, std::vecto
   GltfMaterial read = read_inputs(material, inputs_of(workflow), warnings);
   const FactorText& ior = read[GltfInput::kIor].factor[0];
   if (ior.value > 0.0 && ior.value < 1.0)
-    throw input_error("ior " + ior.text + ": expected 0 or a number from 1");
+    throw input_error("ior " + ior.text + ": expected 0, or a number of at least 1");
   return read;
 }
 

@@ -114,7 +114,7 @@ void MaterialTextures::require_one_grid(const UsedTexture& first, const UsedText
     throw input_error("its " + own_name + " texture lies on TEXCOORD_" +
                       std::to_string(first.info.tex_coord) + ", its " + other_name + " texture on TEXCOORD_" +
                       std::to_string(other.info.tex_coord) + ", and both" + decided +
-                      " (bake them onto one in a modeller" + otherwise);
+                      " (bake both with one set of UVs, for example in Blender" + otherwise);
   if (first.info.transform != other.info.transform && !options_.resamples)
     throw input_error("its " + own_name + " and " + other_name +
                       " textures have different KHR_texture_transform, and both" + decided +
@@ -141,7 +141,7 @@ void MaterialTextures::align(std::vector<UsedTexture>& textures, const GridReaso
   enlarge(textures);
   if (!wraps_alike)
     warnings.emplace_back(
-        "its textures use different wrap modes: the result may be wrong where UVs are outside 0 to 1");
+        "its textures have different wrap modes: the result may be wrong where UVs are outside 0 to 1");
 }
 
 void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason& reason,
@@ -152,8 +152,8 @@ void MaterialTextures::bake(std::vector<UsedTexture>& textures, const GridReason
   const std::optional<CommonGrid> common = common_grid(placed);
   if (!common)
     throw input_error("its " + textures.front().name() + " and " + textures.back().name() +
-                      " textures repeat differently, and no image can hold both (bake them onto one in a "
-                      "modeller" +
+                      " textures repeat differently, and no image can hold both (bake both with one set of "
+                      "UVs, for example in Blender" +
                       std::string(reason.otherwise) + ")");
   const UsedTexture& model = textures[common->of];
   const TextureInfo place = model.info;

@@ -58,7 +58,8 @@ void change_colors(const ImagePixels& pixels, std::vector<float>& values, const 
 void sample(const ImagePixels& map, const std::vector<float>& values, const TextureCoordinates& at,
             float* out) {
   if (!std::isfinite(at[0]) || !std::isfinite(at[1]))
-    throw input_error(std::string(kTransformExtension) + ": its numbers are too large to bake");
+    throw input_error(std::string(kTransformExtension) +
+                      ": the numbers are too large for --resample (use smaller numbers)");
   const RepeatedPlace column = place_at(at[0], map.width), row = place_at(at[1], map.height);
   const auto mixed = [&](std::size_t y, std::size_t channel) {
     const float* const first = values.data() + y * map.width * map.channels + channel;
@@ -148,8 +149,9 @@ ImagePixels baked(const ImagePixels& map, Transfer transfer, const TextureTransf
                   const TextureGrid& grid) {
   for (const double scale : grid.transform.scale)
     if (scale == 0.0 || !std::isfinite(1.0 / scale))
-      throw input_error(std::string(kTransformExtension) +
-                        ".scale: is 0, so that nothing can be baked onto its texture");
+      throw input_error(
+          std::string(kTransformExtension) +
+          ".scale: is 0, so --resample cannot use this transform (set both numbers to another value)");
   std::vector<float> from(map.width * map.height * map.channels);
   load_values(map.type, map.bytes.data(), byte_count(map.type), from.size(), from.data());
   change_colors(map, from, [&](std::span<float> colors) { to_linear(transfer, colors); });

@@ -193,7 +193,8 @@ class MtlEditor {
 
   AssetConversion result() {
     if (options_.writes_extensions())
-      conversion_.warnings.push_back("MTL has no lines for --extensions write (remove this option)");
+      conversion_.warnings.push_back(
+          "MTL files cannot hold what --extensions write adds (remove this option)");
     if (const std::string warning = maker_warning(maker_); !warning.empty())
       conversion_.warnings.push_back(warning);
     conversion_.resources = named_images(document_, images_);

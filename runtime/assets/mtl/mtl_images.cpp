@@ -33,7 +33,7 @@ void require_one_place(const std::vector<NamedMap>& maps) {
     if (!first.lies_like(second))
       throw input_error(plain(first.file, kLongestShownName) + " and " +
                         plain(second.file, kLongestShownName) +
-                        " lie on the surface in different places (-s, -o, -clamp); use one for both");
+                        " have different options -s, -o or -clamp (give both maps the same options)");
   }
 }
 

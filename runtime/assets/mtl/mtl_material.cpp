@@ -301,7 +301,7 @@ void read_mtl_surface(const MtlDocument& document, const MtlBlock& block, MtlMak
   const bool is_black = surface.diffuse && *surface.diffuse == std::array<double, 3>{};
   if (is_black && surface.diffuse_map) {
     // Taken literally, Kd 0 would make the map black. Exporters write 0 because the map replaces this number.
-    warnings.emplace_back("Kd is 0, which would make map_Kd black: 1 is used instead");
+    warnings.emplace_back("Kd is 0, which would make map_Kd black: texremap uses Kd 1");
     surface.diffuse = kUnused;
   }
   surface.is_metal_rough = has_metal_rough_lines(document, block);
@@ -369,7 +369,7 @@ LegacyMaterial reflection_of(const MtlSurface& surface, std::vector<std::string>
     return factors;
   }
   if (!surface.exponent && surface.exponent_map)
-    throw input_error("has map_Ns but no Ns, which the map multiplies (add a line Ns)");
+    throw input_error("has map_Ns but no Ns, which the map multiplies (add a line such as Ns 1000)");
   if (surface.exponent.value_or(0.0) <= 0.0) {
     warnings.push_back((surface.exponent ? "has Ns " + number_text(*surface.exponent) : "has no Ns") +
                        ", so its Ks gives no highlight (write the exponent of the highlight as Ns)");
@@ -380,7 +380,7 @@ LegacyMaterial reflection_of(const MtlSurface& surface, std::vector<std::string>
   if (factors.exponent < LegacyMaterial::kLeastExponent) {
     factors.exponent = LegacyMaterial::kLeastExponent;
     warnings.push_back("Ns " + number_text(*surface.exponent) +
-                       ": the highlight covers the whole surface, and 1 is used instead");
+                       ": the highlight covers the whole surface, so texremap uses Ns 1");
   }
   return factors;
 }

@@ -59,7 +59,7 @@ class SceneWriter {
     if (without_texcoords_ > 0)
       conversion_.warnings.push_back(
           "faces of " + counted(without_texcoords_, "mesh part") +
-          " have no texture coordinates, but a texture: they show one point of it");
+          " have a texture, but no texture coordinates: they show only one texel of the texture");
     Json file{{"asset", Json{{"version", "2.0"}, {"generator", std::string("texremap ") + kVersion}}}};
     file["scene"] = 0;
     Json scene = Json::object();

@@ -103,7 +103,8 @@ ObjMaterials::ObjMaterials(const AssetOptions& options, const AssetResources& re
       reads_tr_(!libraries.has_tr_for_opaque()) {
   if (!reads_tr_)
     conversion.warnings.push_back(
-        "Tr is 1 in every material and d in none, as MeshLab writes it: the materials are opaque");
+        "every material has Tr 1 and no d, as MeshLab writes opaque materials: texremap treats them as "
+        "opaque");
 }
 
 ObjMaterials::~ObjMaterials() = default;
@@ -161,7 +162,7 @@ Json ObjMaterials::converted_block(MtlLibrary& library, const MtlBlock& block, A
   draft.attempt([&] { set_emission(draft); });
   if (draft.blends) draft.material["alphaMode"] = "BLEND";
   if (draft.cover.has_displacement)
-    report.warnings.push_back("loses its map of displacement (disp), which glTF does not have");
+    report.warnings.push_back("loses its displacement map (disp), which glTF does not support");
   describe(draft);
   return std::move(draft.material);
 }
@@ -223,7 +224,7 @@ void ObjMaterials::set_metal_rough(MaterialDraft& draft) {
   draft.roughness = numbers.roughness;
   set_specular_level(draft);
   if (!surface.roughness && !surface.roughness_map)
-    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr): 1 is used");
+    draft.report.warnings.push_back("has metallic (Pm) but no roughness (Pr): texremap uses roughness 1");
   const MtlMap* model = nullptr;
   if (const auto pixels = packed_metal_rough(draft, &model))
     draft.core["metallicRoughnessTexture"] = textures_.info(
@@ -253,8 +254,8 @@ bool ObjMaterials::is_glass(MaterialDraft& draft) const {
   if (cover.refraction && options_.writes_extensions()) return true;
   draft.report.warnings.push_back(
       cover.refraction
-          ? "is glass by illum and Ni " + number_text(*cover.refraction) +
-                ", and becomes opaque (--extensions write keeps it)"
+          ? "is glass according to illum and Ni " + number_text(*cover.refraction) +
+                ", but becomes opaque (--extensions write keeps the glass)"
           : "refracts by illum, but has no index Ni, so it becomes opaque (add a line Ni 1.5 for glass)");
   return false;
 }
@@ -276,9 +277,10 @@ std::shared_ptr<const ImagePixels> ObjMaterials::packed_metal_rough(MaterialDraf
     if (!map) return;
     const std::shared_ptr<const ImagePixels> pixels = draft.library.images.load(*map, draft.report.warnings);
     if (packed && (packed->width != pixels->width || packed->height != pixels->height))
-      throw input_error("map_Pr and map_Pm differ in size (make them equal)");
+      throw input_error("map_Pr and map_Pm differ in size (scale one of the images)");
     if (*model != nullptr && !(*model)->lies_like(*map))
-      throw input_error("map_Pr and map_Pm lie on the surface in different places (-s, -o, -clamp)");
+      throw input_error(
+          "map_Pr and map_Pm have different options -s, -o or -clamp (give both maps the same options)");
     if (!packed) {
       packed = std::make_shared<ImagePixels>(blank_like(*pixels, 3));
       *model = &*map;
@@ -428,7 +430,8 @@ bool ObjMaterials::add_opacity(MaterialDraft& draft) {
     opacity = images.load(*opacity_map, warnings);
     channel = opacity_channel(*opacity_map, *opacity);
     if (draft.base_map != nullptr && !draft.base_map->lies_like(*opacity_map))
-      throw input_error("map_Kd and map_d lie on the surface in different places (-s, -o, -clamp)");
+      throw input_error(
+          "map_Kd and map_d have different options -s, -o or -clamp (give both maps the same options)");
   } else if (!draft.keeps_file || !color->has_alpha()) {
     return !draft.keeps_file;
   }
@@ -453,7 +456,7 @@ void ObjMaterials::set_emission(MaterialDraft& draft) {
   const bool is_dark = std::ranges::all_of(factor, [](double value) { return value <= 0.0; });
   if (cover.emissive_map) {
     if (cover.has_emissive && is_dark)
-      draft.report.warnings.push_back("Ke is 0, which would make map_Ke black: 1 is used instead");
+      draft.report.warnings.push_back("Ke is 0, which would make map_Ke black: texremap uses Ke 1");
     if (is_dark) factor = kWhite;
     const std::size_t image =
         textures_.add_file(draft.library.images, *cover.emissive_map, draft.report.warnings);

@@ -106,11 +106,11 @@ class ObjStream final : public std::streambuf {
     if (dropped_ > 0)
       scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces skipped");
     if (small_ > 0)
-      scene_.warnings.push_back(counted(small_, "face") + " of fewer than three corners skipped");
+      scene_.warnings.push_back(counted(small_, "face") + " with fewer than three corners skipped");
     if (fans_ > 0)
-      scene_.warnings.push_back(counted(fans_, "polygon") + " of more than " +
-                                std::to_string(kMostClippedCorners) +
-                                " corners cut as fans, which is only correct if they are convex");
+      scene_.warnings.push_back(
+          counted(fans_, "polygon") + " with more than " + std::to_string(kMostClippedCorners) +
+          " corners split into fans of triangles, which is only correct for convex polygons");
   }
 
   // Return the name for a number. Number 0 is for faces without a name.
@@ -439,8 +439,9 @@ class ObjReader {
     }
     stream_.warn();
     if (filled > 0)
-      scene_.warnings.push_back("normals of " + counted(filled, "mesh part") +
-                                " that are missing or have length 0 become the normals of its faces");
+      scene_.warnings.push_back(
+          "normals that are missing or have length 0 become the normals of the faces (" +
+          counted(filled, "mesh part") + ")");
     return std::move(scene_);
   }
 
@@ -458,7 +459,8 @@ class ObjReader {
     if (warning.find("invalid vertex index") != std::string::npos ||
         warning.find("out of bounds") != std::string::npos)
       throw input_error(context_ +
-                        ": a face refers to a vertex, normal or texture coordinate that does not exist");
+                        ": a face refers to a vertex, normal or texture coordinate that does not exist "
+                        "(export the file again)");
     for (const auto* values : {&attributes_.vertices, &attributes_.texcoords, &attributes_.colors})
       if (!std::ranges::all_of(*values, [](float value) { return std::isfinite(value); }))
         throw input_error(context_ + ": a coordinate is too large for a number of 32 bits");

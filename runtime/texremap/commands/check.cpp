@@ -182,14 +182,15 @@ void add_check_command(Command& app) {
   Command* command =
       app.add_subcommand("check", "Look for wrong conventions in maps and assets; write nothing");
   CheckOptions& options = set_work<CheckOptions>(*command, check);
-  command->add_option("PATH", options.paths, "Folders of texture sets and assets, glTF and MTL files, maps")
+  command->add_option("PATH", options.paths, "Folders of texture sets or assets, glTF or MTL files, or maps")
       ->required();
   command->add_option("--for NAME", options.reader, one_of(gltf_consumers(), "importer"),
                       "Also report what this importer ignores or reads differently");
-  command->add_option("--ignore RULES", options.ignored, rule_names(),
-                      "Rules to leave out, with commas between");
-  command->add_option("--fail-on CONFIDENCE", options.fails_on, one_of(kConfidences, "confidence"),
-                      "Exit with 1 on findings that are at least this sure (default: certain)");
+  command->add_option("--ignore RULES", options.ignored, rule_names(), "Rules to skip, comma-separated");
+  command
+      ->add_option("--fail-on CONFIDENCE", options.fails_on, one_of(kConfidences, "confidence"),
+                   "Exit with code 1 if a finding is at least this sure")
+      ->default_text("certain");
   command->add_option("--names FILE", options.names, "More naming conventions (JSON)");
   command->add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core");
   add_memory_option(*command, options.memory_megabytes);

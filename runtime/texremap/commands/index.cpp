@@ -35,8 +35,8 @@ TreeManifest tree_of_sets(const IndexOptions& options) {
     if (!other.empty())
       tree.found.problems.push_back(
           {set.folder / set.name, display_path(options.folder / set.maps.front().path) +
-                                      ": its set has the same name as the set of " + other +
-                                      " (rename one of the sets; upper and lower case are the same)"});
+                                      ": belongs to a set with the same name as the set of " + other +
+                                      " (rename one of the sets; A and a are the same letter here)"});
     return !other.empty();
   });
   if (tree.found.sets.empty() && tree.found.problems.empty())
@@ -82,16 +82,17 @@ void index(const IndexOptions& options) {
 
 void add_index_command(Command& app) {
   Command* command =
-      app.add_subcommand("index", "List the texture sets or assets of a tree, for conversions in parts");
+      app.add_subcommand("index", "List the texture sets or assets of a folder, for conversions in parts");
   IndexOptions& options = set_work<IndexOptions>(*command, index);
   command->add_option("DIR", options.folder, "Folder of texture sets or assets, with its subfolders")
       ->required();
-  command->add_option("-o,--output FILE", options.output, "The manifest: JSON, a set or an asset a line")
+  command
+      ->add_option("-o,--output FILE", options.output,
+                   "Manifest to write: JSON, one line for each set or asset")
       ->required();
-  Option* assets =
-      command->add_flag("--assets", options.assets,
-                        "List the assets (glTF and MTL files, with --format glb or gltf OBJ files) "
-                        "in DIR, not the texture sets");
+  Option* assets = command->add_flag(
+      "--assets", options.assets,
+      "List the glTF and MTL files in DIR (with --format, its OBJ files) instead of its texture sets");
   command->add_option("--format EXT", options.format, "Format that OBJ files are converted to: glb or gltf")
       ->needs(assets);
   command->add_option("--names FILE", options.names, "More naming conventions (JSON)")->excludes(assets);

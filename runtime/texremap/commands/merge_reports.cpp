@@ -65,12 +65,12 @@ void merge(const MergeOptions& options) {
 }  // namespace
 
 void add_merge_reports_command(Command& app) {
-  Command* command = app.add_subcommand("merge-reports",
-                                        "Make one report of the parts of a conversion; list what is missing");
+  Command* command = app.add_subcommand(
+      "merge-reports", "Make one report from the reports of all parts of a conversion; list what is missing");
   MergeOptions& options = set_work<MergeOptions>(*command, merge);
   command->add_option("DIR", options.folder, "The output folder of the conversion")->required();
   command->add_option("-o,--output FILE", options.output,
-                      "Write the report: JSON, a set or an asset a line, then a summary");
+                      "File for the report: JSON, one line for each set or asset, then a summary");
   command->add_flag("--force", options.force, "Overwrite an existing report");
   command->add_flag("--json", options.json, "Print the report to standard output");
   command->add_flag("--quiet", options.quiet, "Print nothing but failures to standard error");

@@ -106,7 +106,8 @@ ConvertOptions options_of(const std::vector<std::string>& words) {
   run_words(command, words);
   note_given(command, options);
   refuse(options, kOfPlan, reason);
-  if (options.output.empty()) throw usage_error("--output is required after -- (the folder of the results)");
+  if (options.output.empty())
+    throw usage_error("--output is required after -- (add -o FOLDER there, for the results)");
   return options;
 }
 
@@ -209,37 +210,40 @@ void plan(const PlanOptions& options) {
 }  // namespace
 
 void add_plan_command(Command& app) {
-  Command* command =
-      app.add_subcommand("plan", "Write what hands a conversion in parts to a scheduler; submit nothing");
+  Command* command = app.add_subcommand(
+      "plan", "Write the files that run a conversion in parts on a cluster; submit nothing");
   PlanOptions& options = set_work<PlanOptions>(*command, plan);
   command
-      ->add_option(
-          "KIND", options.kind, one_of(kPlanKinds, "kind of plan"),
-          "slurm (batch scripts), openjd (a job template of render farms) or commands (one a line, for "
-          "GNU parallel and others)")
+      ->add_option("KIND", options.kind, one_of(kPlanKinds, "kind of plan"),
+                   "slurm (batch scripts), openjd (a job template of render farms) or commands (one on each "
+                   "line, for GNU parallel and others)")
       ->required();
-  command->add_option("--manifest FILE", options.manifest, "The sets or assets, as texremap index lists them")
+  command
+      ->add_option("--manifest FILE", options.manifest,
+                   "Manifest of the sets or assets, written by texremap index")
       ->required();
-  command->add_option("-o,--output FOLDER", options.folder, "Where the plan is written")->required();
+  command->add_option("-o,--output FOLDER", options.folder, "Folder for the plan")->required();
   command->add_option("OPTIONS", options.words,
                       "After --: options of texremap convert, with -o for the results");
-  command
-      ->add_option("--parts N", options.parts,
-                   "Number of parts (default: a quarter of an hour each, 1000 at most)")
-      ->range(std::size_t{1}, std::size_t{1'000'000});
-  command->add_option("--threads N", options.threads, "Threads of a part; 0 for all of its machine");
-  command->add_option("--memory MB", options.memory_megabytes, "Memory of a part (default: measured)")
-      ->positive();
-  command->add_option("--time MINUTES", options.minutes, "Time limit of a part (default: measured)")
-      ->positive();
-  command->add_option("--program FILE", options.program, "texremap as the jobs call it (default: this one)");
+  command->add_option("--parts N", options.parts, "Number of parts")
+      ->range(std::size_t{1}, std::size_t{1'000'000})
+      ->default_text("parts of a quarter of an hour, 1000 at most");
+  command->add_option("--threads N", options.threads,
+                      "Threads for each part; 0 for all cores of the machine");
+  command->add_option("--memory MB", options.memory_megabytes, "Memory of each part")
+      ->positive()
+      ->default_text("measured");
+  command->add_option("--time MINUTES", options.minutes, "Time limit of each part")
+      ->positive()
+      ->default_text("measured");
+  command->add_option("--program FILE", options.program,
+                      "Program that the jobs start (default: this texremap)");
   command->add_flag("--force", options.force, "Overwrite an existing plan");
   command->add_flag("--json", options.json, "Print what was planned as JSON");
   command->add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
   command->footer(
-      "A few of them are converted to a temporary folder, to measure time and memory. Standard output has "
-      "the "
-      "line that submits the plan.\n\n"
+      "texremap converts a few of the sets or assets to a temporary folder, to measure time and memory. It "
+      "prints the command that submits the plan.\n\n"
       "Example:\n"
       "  texremap plan slurm --manifest sets -o plan -- --from unity --to gltf -o out\n"
       "  sh plan/submit.sh");

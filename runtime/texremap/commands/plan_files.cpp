@@ -160,16 +160,17 @@ void require_writable(PlanKind kind, const PlannedFarm& farm) {
   words.push_back(farm.program);
   for (const std::string& word : words) {
     if (std::ranges::any_of(word, is_control))
-      refuse(word, "a plan cannot contain line breaks or other control characters");
-    if (kind == PlanKind::kOpenJd && !is_utf8(word)) refuse(word, "an OpenJD template must be UTF-8");
+      refuse(word, "contains a line break or another control character, which a plan cannot contain");
+    if (kind == PlanKind::kOpenJd && !is_utf8(word))
+      refuse(word, "is not UTF-8, as an OpenJD template must be");
   }
   for (const std::string& option : farm.options)
     if (kind == PlanKind::kOpenJd &&
         (option.find("{{") != std::string::npos || option.find("}}") != std::string::npos))
-      refuse(option, "an OpenJD template cannot contain {{ or }}");
+      refuse(option, "contains {{ or }}, which an OpenJD template cannot contain");
   // Refuse backslashes: sbatch would then not replace the number of a part in the rest of the name.
   if (kind == PlanKind::kSlurm && farm.folder.string().find('\\') != std::string::npos)
-    refuse(farm.folder.string(), "sbatch cannot write logs to a folder with a backslash in its name");
+    refuse(farm.folder.string(), "has a backslash in its name, so sbatch cannot write logs there");
 }
 
 NamedTexts plan_files(PlanKind kind, const PlannedFarm& farm) {

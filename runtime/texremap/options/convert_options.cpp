@@ -203,8 +203,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: source and target");
   command
       .add_option("DIR", options.folder,
-                  "Folder of texture sets; or an asset: a glTF, MTL or OBJ file; or a folder that contains "
-                  "all files of the assets behind it, whose results keep its tree")
+                  "Folder of texture sets, or an asset (a glTF, MTL or OBJ file). If assets follow a folder, "
+                  "the folder must contain all their files, and the results get its subfolders")
       ->tag(kOfPlan | kForAssets);
   command.add_option("ASSET", options.more_assets, "More assets")->tag(kNeedsAsset);
   command
@@ -223,30 +223,30 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets);
   command
       .add_flag("-r,--recursive", options.recursive,
-                "Convert the subfolders of DIR, too; results mirror the tree")
+                "Convert the subfolders of DIR, too; the results get the same subfolders")
       ->common()
       ->tag(kNeedsTree | kForAssets | kNeedsFolder);
   command
       .add_flag("--assets", options.assets,
-                "Convert the assets (glTF and MTL files, with --format glb OBJ files) in DIR instead of its "
+                "Convert the glTF and MTL files in DIR (with --format glb, its OBJ files) instead of its "
                 "texture sets")
       ->tag(kNeedsAsset);
   command
       .add_flag("--follow-links", options.follow_links,
-                "Read files that links in DIR, or in the folder of an asset, lead to elsewhere")
+                "Follow links in DIR, or in the folder of an asset, that lead to files elsewhere")
       ->tag(kForAssets | kNeedsFiles);
   Option* manifest =
       command
           .add_option(
               "--manifest FILE", options.manifest,
-              "Convert the sets or assets that texremap index has listed; DIR is where the tree lies now")
+              "Convert the sets or assets that texremap index has listed; give DIR if their folder was moved")
           ->tag(kOfPlan | kForAssets);
   manifest->excludes(command.option("--recursive"));
   manifest->excludes(command.option("--assets"));
   command
-      .add_option("--part I/N", options.part, given_part(),
-                  "Convert part I of N of the manifest; auto reads both from the array job of this "
-                  "process, auto/N reads I")
+      .add_option(
+          "--part I/N", options.part, given_part(),
+          "Convert part I of N of the manifest; auto reads I and N from the array job, auto/N reads only I")
       ->needs(manifest)
       ->tag(kOfPlan | kForAssets);
   command
@@ -254,11 +254,11 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->allow_extra_args(false);
   options.converters.add_option(command)->tag(kIsPath);
   command
-      .add_option(
-          "--extensions USE", options.extensions, one_of(kDielectricExtensions, "use"),
-          "Of KHR_materials_specular and KHR_materials_ior. write: exact in viewers that read them, wrong "
-          "in others; fold: replace them by core, for viewers that do not read them (default: only core in "
-          "converted materials, others unchanged)")
+      .add_option("--extensions USE", options.extensions, one_of(kDielectricExtensions, "value"),
+                  "What to do with KHR_materials_specular and KHR_materials_ior. write: add them, which is "
+                  "exact in viewers that read them and wrong in others; fold: replace them by core glTF, for "
+                  "viewers that do not read them (default: write only core glTF in converted materials, keep "
+                  "other materials unchanged)")
       ->tag(kChangesResults | kNeedsAsset);
   command
       .add_flag("--keep-unused", options.keep_unused,
@@ -281,14 +281,19 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNotWithDiffuseWarp)
       ->excludes(command.option("--roughness"));
   add_map("--specular", P::kSpecular, "Specular color")->tag(kNotWithDiffuseWarp);
-  add_map("--diffuse", P::kDiffuse, "Diffuse color of a specular workflow; else the file is copied");
-  add_map("--base-color", P::kBaseColor, "Base color of a metallic workflow; else the file is copied");
-  add_map("--metallic", P::kMetallic, "Metallic of a metallic workflow; else --layout places it unconverted");
+  add_map("--diffuse", P::kDiffuse,
+          "Diffuse color of a specular workflow; without a workflow, texremap copies the file");
+  add_map("--base-color", P::kBaseColor,
+          "Base color of a metallic workflow; without a workflow, texremap copies the file");
+  add_map("--metallic", P::kMetallic,
+          "Metallic of a metallic workflow; without a workflow, texremap puts it unchanged into the files of "
+          "--layout");
   command
       .add_option("--input NAME=MAP", options.inputs, input_word(),
                   "Another input, such as coat_weight=coat.png or sheen_color=1,0.9,0.8 (for --from or --to "
-                  "openpbr and standard-surface), occlusion=ao.png, which --layout places unconverted, or "
-                  "metal_mask=mask.png, which decides between metallic values that look alike; repeatable")
+                  "openpbr and standard-surface), occlusion=ao.png, which texremap puts unchanged into the "
+                  "files of --layout, or metal_mask=mask.png, which decides between metallic values that "
+                  "look alike; repeatable")
       ->tag(kChangesResults);
   command
       .add_option(
@@ -310,10 +315,9 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->common()
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
-      .add_option(
-          "--prefer WORDS", options.prefer,
-          "Of several maps of one parameter, take the map of this role or with this word in its name: gloss, "
-          "arm, 4k, png; comma-separated, the first word that applies is used")
+      .add_option("--prefer WORDS", options.prefer,
+                  "If several maps fit one parameter, use the map of this role or with this word in its "
+                  "name: gloss, arm, 4k, png; comma-separated, the first word that applies is used")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->tag(kChangesResults | kNeedsFolder);
@@ -321,20 +325,20 @@ void add_map_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsFolder);
 }
 
-constexpr std::array<std::pair<const char*, const char*>, 23> kNewNames = {{
+constexpr std::array<std::pair<const char*, const char*>, 21> kNewNames = {{
     {"--fit", "--converters"},
     {"--occlusion", "--input (for example: --input occlusion=ao.png)"},
     {"--dither", "--type uint8-dithered"},
     {"--preset", "--to (for the packed files of glTF: --to gltf --layout gltf)"},
     {"--fold-specular", "--extensions fold"},
     {"--bake", "--resample"},
-    {"--histograms", "--verbose, with --json"},
+
     {"--metal-mask", "--input (for example: --input metal_mask=mask.png)"},
     {"--from-workflow", "--from (for example: --from specular:mitsuba/ward)"},
     {"--to-workflow", "--to (for example: --to specular:mitsuba/ward)"},
     {"--mtl-from", "--from (for example: --from blender)"},
     {"--jpeg", "--compression (for example: --compression jpeg=90)"},
-    {"--instructions", "REMAP_INSTRUCTIONS, an environment variable"},
+
     {"--bad-texels", "--nan"},
     {"--prior", "--metallic-bias"},
     {"--output-roughness-factor", "--output-encoding (for example: --output-encoding exponent=1000)"},
@@ -367,17 +371,15 @@ void add_output_options(Command& command, ConvertOptions& options) {
                   "Pixel type of the results; uint8-dithered adds repeatable noise of half a step")
       ->tag(kChangesResults | kNeedsFiles);
   command
-      .add_option(
-          "--compression LEVEL", options.compression, compression(),
-          "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in new "
-          "PNG files, 3 in assets). For glTF files also jpeg=QUALITY, from 1 to 100, or both as 9,jpeg=90: "
-          "new "
-          "color maps become JPEG if the old ones are JPEG without alpha")
+      .add_option("--compression LEVEL", options.compression, compression(),
+                  "1 (fast) to 9 (small), for PNG, and for zip in EXR and TIFF (default: as the inputs, 6 in "
+                  "new PNG files, 3 in assets). For glTF files also jpeg=QUALITY, from 1 to 100, or both as "
+                  "9,jpeg=90: new color maps become JPEG if the old ones are JPEG without alpha")
       ->tag(kForAssets | kChangesResults | kNeedsFiles);
   command
       .add_option("--output-color-space NAME", options.output_color_spaces, color_spaces(),
-                  "How colors are written: srgb or linear, or per map (default: integers as their input map, "
-                  "otherwise srgb; half and float linear)")
+                  "How colors are written: srgb or linear, or per map (default: integers like their input "
+                  "map, or srgb if there is none; half and float are linear)")
       ->tag(kChangesResults | kNeedsFiles);
   command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
       ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
@@ -397,6 +399,9 @@ void add_output_options(Command& command, ConvertOptions& options) {
       "--root", "was removed (give the folder before the assets: texremap convert FOLDER chair.gltf -o out)");
   command.retire("--diffuse-convention",
                  "was removed (write plain: or scaled: before the model: --from plain:gltf-specgloss)");
+  command.retire("--histograms", "was removed (use --verbose together with --json)");
+  command.retire("--instructions",
+                 "was removed (set an environment variable instead: REMAP_INSTRUCTIONS=avx2)");
   command.retire("--profile",
                  "was removed (for --profile extensions, use --extensions write; core is the default)");
   for (const auto& [name, now] : kNewNames) command.retire(name, std::string("is now called ") + now);
@@ -410,7 +415,7 @@ void add_output_options(Command& command, ConvertOptions& options) {
       ->common()
       ->tag(kOfPlan | kForAssets | kNeedsFiles);
   command
-      .add_flag("--json", options.json, "Print a report as JSON; of several sets or assets a line for each")
+      .add_flag("--json", options.json, "Print a report as JSON; for several sets or assets, one line each")
       ->common()
       ->tag(kOfPlan | kForAssets);
   command
@@ -449,9 +454,9 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command
       .add_option(
           "--output-encoding NAME", options.output_roughness, written_roughness(),
-          "What the roughness results hold (default: as the inputs where that is known, else what the "
-          "target model takes; a file named glossiness contains glossiness). exponent=1000: white means an "
-          "exponent of 1000, as in MTL files; OpenGL has 128")
+          "What the roughness results contain (default: the same as the inputs if that is known, otherwise "
+          "the parameter of the target model; a file named glossiness contains glossiness). exponent=1000: "
+          "white means an exponent of 1000, as in MTL files; OpenGL has 128")
       ->tag(kChangesResults);
   command
       .add_option("--factor NAME=NUMBERS", options.factors, parameter_word(parse_factors),
@@ -462,14 +467,16 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command.option_group("Rare: checks");
   command
       .add_option("--diagnose FOLDER", options.diagnose,
-                  "Also write maps that check the result: mask, 1 outside the domain; of a metallic result, "
-                  "residual, what metal-rough cannot represent (rendered pictures differ by 0.42 of it), "
-                  "metallic_uncertainty, the share of [0, 1] in which metallic may lie (above 0.2 it is "
-                  "undetermined), and issues, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
+                  "Also write maps that check the result. mask: 1 where values are outside the measured "
+                  "range. For metallic results also residual: what metal-rough cannot express (the visible "
+                  "difference is 0.42 times this value); metallic_uncertainty: the length of the interval in "
+                  "which metallic could lie (above 0.2, metallic is undetermined); issues: the sum of 1 "
+                  "clamped, 2 ambiguous, 4 too dark, 8 undetermined")
       ->tag(kIsPath | kNeedsFiles);
   command
-      .add_option("--nan NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
-                  "NaN, infinite and negative values; clamp moves all values into the domain")
+      .add_option(
+          "--nan NAME", options.bad_texels, one_of(kBadTexels, "value"),
+          "What to do with NaN, infinite and negative values; clamp moves all values into the measured range")
       ->default_text("keep")
       ->tag(kChangesResults);
   command.option_group("Rare: speed");
@@ -490,9 +497,9 @@ std::uint64_t memory_limit(int megabytes) {
 
 Option* add_memory_option(Command& command, int& megabytes) {
   return command
-      .add_option("--memory-limit MB", megabytes,
-                  "Memory that images may take at once in all threads (default: a quarter of this machine's)")
-      ->positive();
+      .add_option("--memory-limit MB", megabytes, "Memory that images may use at once in all threads")
+      ->positive()
+      ->default_text("a quarter of this machine's");
 }
 
 void choose_files(ConvertOptions& options) {

@@ -75,13 +75,15 @@ class ArrayJob {
 std::optional<std::size_t> ArrayJob::own_count(std::size_t first) const {
   const auto count = number(scheduler_.count), last = number(scheduler_.last);
   if (number(scheduler_.step).value_or(1) != 1)
-    throw usage_error("--part auto: the array has steps (give --part I/N, or an array without steps)");
+    throw usage_error(
+        "--part auto: the numbers of the job array have steps (submit consecutive numbers, such as 1-4, or "
+        "give --part I/N)");
   if (!last) return count;
   const std::size_t all = *last + 1 - first;
   if (count && *count != all)
     throw usage_error("--part auto: the array has only " + std::to_string(*count) + " of the numbers " +
                       std::to_string(first) + " to " + std::to_string(*last) +
-                      " (give --part auto/N; N is the size of the whole array)");
+                      " (give --part auto/N; N is the number of all parts)");
   return all;
 }
 
@@ -94,8 +96,9 @@ Part ArrayJob::part(std::optional<std::size_t> count) const {
   const bool is_given = count.has_value();
   if (!count) count = own_count(first);
   if (!count)
-    throw usage_error("--part auto: " + std::string(scheduler_.name) +
-                      " does not report the size of the array (give --part auto/N)");
+    throw usage_error(
+        "--part auto: " + std::string(scheduler_.name) +
+        " does not report the size of the array (give --part auto/N; N is the number of all parts)");
   if (index < first || index - first >= *count)
     throw usage_error("--part auto" + (is_given ? "/" + std::to_string(*count) : "") + ": " + text() +
                       " is not between " + std::to_string(first) + " and " +

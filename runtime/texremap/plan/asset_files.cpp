@@ -23,10 +23,11 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
   const fs::path inner = folder.lexically_normal().lexically_relative(root.lexically_normal());
   for (const fs::path& place : {(inner / path).lexically_normal(), (inner / slashes).lexically_normal()})
     if (place.empty() || place.is_absolute() || *place.begin() == "..")
-      throw input_error(
-          display_path(path) + ": is outside the " +
-          (root.lexically_normal() == "." ? "current folder" : "folder " + display_path(root)) +
-          " (copy the file into this folder, or give a folder that contains both before the asset)");
+      throw input_error(display_path(path) + ": is outside the " +
+                        (root.lexically_normal() == "." ? "current folder" : "folder " + display_path(root)) +
+                        " (copy this file into the folder, or give a larger folder before the asset: "
+                        "texremap convert FOLDER "
+                        "ASSET)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
     throw input_error(display_path(path) + ": has a name that texremap uses for its own files (rename it)");
@@ -38,7 +39,8 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
 std::string FileSource::read(std::uint64_t begin, std::size_t count) const {
   std::string bytes(count, '\0');
   if (file_.read(begin, bytes.data(), count) < count)
-    throw input_error(file_.path().string() + ": became shorter while it was read (try again)");
+    throw input_error(file_.path().string() +
+                      ": became shorter while texremap read the file (run the command again)");
   return bytes;
 }
 
@@ -109,7 +111,8 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(context + display_path(resource.path) + " refers to itself (remove this reference)");
+      throw input_error(context + display_path(resource.path) +
+                        " refers to itself (remove this reference from the file)");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("refers to " + display_path(resource.path) + ", which was not found");
       continue;

@@ -76,7 +76,9 @@ void add_tree(const ConvertOptions& options, JobList& list) {
   list.is_of_folder = list.has_several = true;
   if (list.jobs.empty())
     throw usage_error(display_path(options.folder) + ": contains no " + asset_words(options.format) +
-                      (options.recursive ? "" : " (--recursive also searches its subfolders)"));
+                      (!options.recursive       ? " (--recursive also searches its subfolders)"
+                       : options.format.empty() ? " (add --format glb to find OBJ files)"
+                                                : " (remove --format to find glTF and MTL files)"));
 }
 
 void add_listed(const ConvertOptions& options, const TreeManifest& tree, JobList& list) {

@@ -45,7 +45,7 @@ BuiltConversion conversion_of(const ConvertOptions& options, const WarpMapFit* w
   }
   if (options.from.empty() || options.to.empty())
     throw usage_error(std::string(options.from.empty() ? "--from" : "--to") +
-                      " is required (or a fit as --converters)");
+                      " is required (texremap list shows the models)");
   return build_conversion(std::move(choice), options.via, options.converters.graph(options.instructions),
                           options.instructions);
 }
@@ -89,8 +89,8 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
   if (options.folder.empty()) options.folder = manifest.head.root;
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.folder, ignored))
-    throw input_error(options.folder.string() + ": this folder of " + options.manifest.string() +
-                      " does not exist (give the present folder as DIR)");
+    throw input_error(options.folder.string() + ": does not exist, but " + options.manifest.string() +
+                      " lists files of this folder (if it was moved, give its new path as DIR)");
   require_outside(options.output, options.folder);
   return manifest;
 }
@@ -155,7 +155,9 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   complete_models(fit, options);
   if (options.from.empty() && warp == nullptr && !options.to.empty()) {
     if (options.part)
-      throw usage_error("--from is required (a part does not know the maps of the other parts)");
+      throw usage_error(
+          "--from is required with --part, because texremap cannot detect the model from the maps of one "
+          "part");
     find_sets_of(options, found);
     const InferredSource source = inferred_source(options, found);
     options.from = model_name().read("--from", source.model);
@@ -179,10 +181,11 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
   for (const std::string& text : chosen.choice.notes) plan.messages.push_back("note: " + text);
   if (chosen.choice.is_closest) plan.messages.push_back("note: " + closest_text(chosen.choice.target_brdf));
   if (options.folder.empty() && are_constants(sets.request))
-    return refuse(options, kNeedsFiles,
-                  ": has no effect, because all maps are numbers (give a file, or remove this option)");
+    return refuse(
+        options, kNeedsFiles,
+        ": has no effect, because you gave only numbers (give a map as a file, or remove this option)");
   find_sets_of(options, found);
-  if (options.output.empty()) throw usage_error("--output is required");
+  if (options.output.empty()) throw usage_error("--output is required (add -o FOLDER)");
   plan.list = set_jobs(options, chosen.choice, sets.request, std::move(found));
   if (const std::string text = encoding_warning(options, plan.list, chosen.info().source); !text.empty())
     plan.messages.push_back(text);
@@ -240,7 +243,7 @@ void require_asset_options(const ConvertOptions& options) {
       throw usage_error(prefixes_of(*model) + model->name +
                         ": glTF and MTL files define what diffuse means (remove " +
                         std::string(diffuse_convention_name(*model->diffuse)) + ":)");
-  if (options.output.empty()) throw usage_error("--output is required");
+  if (options.output.empty()) throw usage_error("--output is required (add -o FOLDER)");
   if (options.to.name != "gltf" && options.extensions != DielectricExtensions::kKept)
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }

@@ -30,7 +30,7 @@ std::string difference_text(const ConverterPath& path) {
            (is_equal ? "numbers are copied" : "only the encoding of roughness changes");
   }
   const std::optional<PictureDifference> difference = picture_difference(path);
-  if (!difference) return "nobody has compared pictures";
+  if (!difference) return "pictures were never compared";
   return std::string("rendered pictures differ by ") + (difference->is_estimate ? "about " : "") +
          percent_text(difference->converted) +
          (difference->copied ? " (" + percent_text(*difference->copied) + " with copied numbers)" : "");

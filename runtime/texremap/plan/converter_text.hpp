@@ -25,7 +25,7 @@ std::string domain_text(const ConverterInfo& info);
 
 // Returns `rendered pictures differ by 8.0 % (14.1 % with copied numbers)`, or for an estimate `rendered
 // pictures differ by about 8.4 %`. Other texts are `both models have the same lobe, so that numbers are
-// copied` and `nobody has compared pictures`. `path` must have steps.
+// copied` and `pictures were never compared`. `path` must have steps.
 std::string difference_text(const ConverterPath& path);
 
 // Returns `mitsuba/ward -> mitsuba/beckmann -> mitsuba/ggx`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
@@ -370,10 +371,10 @@ void require_as_listed(const ListedSizes& files) {
     std::error_code failure;
     const std::uintmax_t size = fs::file_size(file, failure);
     if (failure)
-      throw system_error(
-          ErrorKind::kInput,
-          file.string() + ": is in the manifest, but cannot be read (run texremap index again)",
-          errno_of(failure));
+      throw Error(ErrorKind::kInput,
+                  file.string() + ": is in the manifest, but cannot be read: " +
+                      std::strerror(errno_of(failure)) + " (run texremap index again)",
+                  errno_of(failure));
     if (size != bytes)
       throw input_error(file.string() + ": has " + std::to_string(size) + " bytes, but the manifest lists " +
                         std::to_string(bytes) + " (run texremap index again)");

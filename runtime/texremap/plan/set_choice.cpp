@@ -180,7 +180,7 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     if (model.empty())
       throw usage_error(
           "--from is required, because the maps do not identify the source (texremap list shows the models)");
-    return {model, "--from is taken as " + model + ", which has these maps"};
+    return {model, "texremap uses --from " + model + ", the model that has these maps"};
   }
   std::string first;
   std::size_t count = 0;
@@ -190,19 +190,20 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     const std::string context = display_path(set.folder / set.name);
     if (!first.empty() && inferred != model)
       throw usage_error("--from is required, because the sets differ: " + first + " uses the model " + model +
-                        ", " + context + " uses " + inferred + " (convert them separately)");
+                        ", " + context + " uses " + inferred +
+                        " (convert the sets of each model separately)");
     if (first.empty()) first = context;
     model = inferred;
     ++count;
   }
   if (sets->sets.empty() && !options.recursive && has_subfolder(options.folder))
     throw usage_error(display_path(options.folder) +
-                      ": contains no maps, only folders (add --recursive to convert these)");
+                      ": contains no maps, only folders (add --recursive to convert these folders)");
   if (first.empty())
     throw usage_error(
         "--from is required, because the file names do not identify the source (texremap list shows the "
         "models)");
-  return {model, "--from is taken as " + model + ", by the maps of " +
+  return {model, "texremap uses --from " + model + ", detected from the maps of " +
                      (count == 1 ? first : std::to_string(count) + " sets")};
 }
 

@@ -247,9 +247,10 @@ void SetJobs::add(FoundSet set) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter))
-      return fail(context(set) + ": has a " + std::string(role_name(found.front().role)) +
-                  " map, but the warp converts only a diffuse map (use a warp of all its maps, or "
-                  "--diffuse MAP instead of the folder)");
+      return fail(
+          context(set) + ": has a " + std::string(role_name(found.front().role)) +
+          " map, but the warp converts only a diffuse map (use a warp that was made for all maps, or give "
+          "--diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(context(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
       return fail(context(set) + ": no " + name + " map found (for sets without this map, use " +

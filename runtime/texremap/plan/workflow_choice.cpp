@@ -27,7 +27,7 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
         "model of texremap list --workflows)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
-           ": has no effect, because every input is translated (remove this option)");
+           ": has no effect, because formulas convert every input between these models (remove this option)");
   if (choice.changes_nothing)
     refuse(options, kNeedsMetallic,
            ": has no effect, because source and target have the same material model (remove this option)");

@@ -148,14 +148,16 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
   };
   if (plan.verbose)
     line(counts.masked_count, " with opacity 0 are converted, but not counted in these lines");
-  visible_line(counts.above_one_count,
-               " reflect more than all light; clamped to 1 (put emission into a separate map)");
-  visible_line(counts.out_of_domain_count,
-               " outside " + outside_text(chosen) + ": roughness is clamped, specular extrapolated");
+  visible_line(
+      counts.above_one_count,
+      " would reflect more light than arrives, and are clamped to 1 (put emission into a separate map)");
+  visible_line(
+      counts.out_of_domain_count,
+      " outside " + outside_text(chosen) + ": their roughness is clamped, their specular is extrapolated");
   line(counts.nan_count, " with NaN" + first_text(counts));
   line(counts.infinite_count, " with infinite values" + first_text(counts));
   line(counts.negative_count, " with negative values" + first_text(counts));
-  visible_line(counts.clipped_count, " clipped to [0, 1] by an integer pixel type", "value");
+  visible_line(counts.clipped_count, " clipped to 0 or 1, the limits of integer pixels", "value");
 }
 
 // A picture does not show an error below this value.

@@ -184,8 +184,9 @@ MergedReport ReportMerger::merge() {
   for (std::size_t i = 0; i < has.size(); ++i)
     if (!has[i]) missing.push_back(std::to_string(i + 1));
   if (!missing.empty())
-    problem(counted(missing.size(), "part") + (missing.size() == 1 ? " has" : " have") + " no report: " +
-            named(missing) + " (convert " + (missing.size() == 1 ? "it" : "them") + " again)");
+    problem(std::string(missing.size() == 1 ? "part " : "parts ") + named(missing) + " of " +
+            std::to_string(has.size()) + ": no report found (convert " +
+            (missing.size() == 1 ? "this part" : "these parts") + " again)");
   for (const auto& [where, cases] : twice_)
     problem(where + ": " + display_path(cases.second) +
             (cases.first > 1 ? " and " + std::to_string(cases.first - 1) + " more" : "") +

@@ -158,9 +158,9 @@ class Copies {
     jobs_.clean(job);
     const bool is_killed = how.starts_with("by signal 9 ");
     if (is_killed && ++kills_[job] < kMostTries) return again_.push_back(job);
-    jobs_.crashed(job, "its process was ended " + how +
+    jobs_.crashed(job, "the process that converted these files was ended " + how +
                            (is_killed ? ", probably because memory ran out (use fewer --threads)"
-                                      : ", probably by a damaged image (write its images again as PNG)"));
+                                      : ", probably by a damaged image (write their images again as PNG)"));
   }
 
   void take(Copy& copy, Answer answer) {

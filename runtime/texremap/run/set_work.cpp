@@ -73,8 +73,9 @@ void require_not_converted(const TextureSet& set, const BuiltConversion& chosen,
     std::optional<std::string> model = map.noted_metadata("remap:target");
     if (!model) model = journals.target_of(*map.file());
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
-      throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
-                                         ", but the source is " + source + " (--force converts it anyway)");
+      throw Error(ErrorKind::kUsage, map.path().string() + ": was already converted to " + *model +
+                                         ", but would be read as " + source +
+                                         " (--force converts it anyway)");
   }
 }
 
@@ -206,7 +207,7 @@ void note_tints(const TextureSet& set, JobReport& report) {
     if (parameter_map == nullptr || tint <= kVisibleTint) continue;
     const ChannelPlace used = parameter_map->channels.front();
     const ImageReader& map = set.maps[used.map];
-    report.warnings.push_back(map.path().string() + ": is not quite grey: its channels differ from " +
+    report.warnings.push_back(map.path().string() + ": is not exactly grey: the channels differ from " +
                               map.layout().channels[used.channel].name + ", which is used, by at most " +
                               fixed(255.0 * static_cast<double>(tint), 0) + " of 255");
   }
@@ -293,8 +294,9 @@ void SetWorker::run(const Job& job, const std::function<void(double)>& progress,
     report.effect = work.effect;
     apply(*work.effect, choice);
     if (work.effect->written.empty())
-      throw usage_error(report.inputs.front().string() + ": no input of " + chosen_.info().target.model +
-                        " depends on a map, so no file is written (give only numbers to print the result)");
+      throw usage_error(report.inputs.front().string() + ": does not change any input of " +
+                        chosen_.info().target.model +
+                        ", so texremap would write no map (give only numbers to print the result)");
   }
   if (pass_.bad_texels != BadTexels::kKeep) choice.unchanged.clear();
   const RoughnessEncoding width = written_width(choice, set, usual_width(set));
@@ -366,8 +368,8 @@ void require_effect(const ConvertPlan& plan, const std::vector<JobReport>& repor
   if (plan.sets()->targets.compression_level &&
       std::ranges::none_of(reports, &JobReport::has_compression_level))
     throw usage_error(
-        "--compression: has no effect, because it is for PNG, and for EXR and TIFF with zip compression "
-        "(remove this option)");
+        "--compression: has no effect, because it applies only to PNG, and to EXR and TIFF with zip "
+        "compression (remove this option)");
 }
 
 std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {

@@ -123,7 +123,7 @@ void OpenedNewImage::plan(const std::vector<NewPart>& parts) {
   }
   if (parts.size() > 1 && !output_->supports("multiimage"))
     fail(std::string("format ") + output_->format_name() + " cannot hold " + std::to_string(parts.size()) +
-         " parts (use exr or tif)");
+         " parts (use --format exr or --format tif)");
   const std::string model_format = parts.front().model->layout().format;
   for (const NewPart& part : parts) {
     std::vector<OIIO::ImageSpec>& levels = specs_.emplace_back();
@@ -166,7 +166,7 @@ void OpenedNewImage::open_plane() {
                         level_ > 0 && output_->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
                                                                   : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output_->spec(), output_->format_name(), path_), layout_))
-    fail("cannot be written: format " + layout_.format + " would change the pixel type");
+    fail("cannot be written: format " + layout_.format + " would change the pixel type (use exr or tif)");
   plane_is_open_ = true;
 }
 

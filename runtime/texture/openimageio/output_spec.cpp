@@ -56,7 +56,8 @@ std::string channels_refused(const OIIO::ImageOutput& output, const OIIO::ImageS
   const bool has_alpha = spec.alpha_channel >= 0;
   const int colors = spec.nchannels - (has_alpha ? 1 : 0);
   if ((colors == 1 || colors == 3) && (!has_alpha || output.supports("alpha"))) return "";
-  return "cannot hold the " + std::to_string(spec.nchannels) + " channels of the source (use exr or tif)";
+  return "cannot hold the " + std::to_string(spec.nchannels) +
+         " channels of the source (use --format exr or --format tif)";
 }
 
 void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output) {

@@ -211,7 +211,7 @@ TEST_CASE("preview: invalid options are refused") {
   refused("mitsuba/ggx", options, "--diffuse: 2 is outside 0 to 1");
   options.diffuse = 0.1;
   refused("mitsuba/ggx-metallic", options,
-          "--diffuse: mitsuba/ggx-metallic has no diffuse reflectance (leave the option out)");
+          "--diffuse: mitsuba/ggx-metallic has no diffuse reflectance (remove this option)");
   options = small_preview();
   options.shapes.clear();
   refused("mitsuba/ggx", options, "at least one light and one shape are required");

@@ -20,16 +20,15 @@ TEST_CASE("light: nothing is said within 1 %, a remark beyond it, an error beyon
   for (const LightMatch& wrong : {LightMatch{1.051, 0.0}, LightMatch{0.949, 0.0}, LightMatch{1.3, 0.03}}) {
     CHECK_FALSE(light_remark(wrong).empty());
     CHECK(is_wrong_light(wrong));
-    CHECK_THROWS_WITH(require_light(wrong, "t.csv"),
-                      Catch::StartsWith("t.csv: the source's light is multiplied"));
+    CHECK_THROWS_WITH(
+        require_light(wrong, "t.csv"),
+        Catch::StartsWith("t.csv: diffuse matches only if the light of the source is multiplied"));
   }
   CHECK(light_remark({1.1863, 0.031}) ==
-        "the source's light is multiplied by 1.186 to match diffuse, after which the diffuse pictures differ "
-        "by "
-        "3.1 %: specular2 is 19 % larger for it, which is right only if the lights of the renderers differ "
-        "(check "
-        "the diffuse of both models; --no-irradiance-matching keeps the light unchanged, --accept-light "
-        "continues anyway)");
+        "diffuse matches only if the light of the source is multiplied by 1.186 (the diffuse pictures differ "
+        "by 3.1 % after that). Therefore, specular2 is 19 % larger, which is right only if the two renderers "
+        "have different light (check the diffuse of both models; --no-irradiance-matching keeps the light "
+        "unchanged, --accept-light continues anyway)");
 }
 
 TEST_CASE("light: a table is checked by what its comments record") {

@@ -145,7 +145,7 @@ TEST_CASE("worker: those that are lost cost nothing but their processes", "[slow
                                 Contains("rendering number 3 (another process renders the picture)"));
     CHECK(renderer.remarks() ==
           std::vector<std::string>{"worker fake: " + std::to_string(lost) +
-                                   " processes were lost; others rendered their pictures"});
+                                   " processes were lost; other processes rendered their pictures"});
     for (const std::string& count : session.log_lines("crowd")) CHECK(std::stoi(count) <= 2);
   }
 }

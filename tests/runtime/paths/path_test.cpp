@@ -207,7 +207,8 @@ TEST_CASE("path: a model that would be visited twice is wrong usage") {
   converters.add("r/b", "r/hub", 0.1);
   converters.add("r/hub", "r/c", 0.1);
   const std::string twice = ": the path would use this model twice (choose another model)";
-  CHECK(refusal(converters, {"r/a", "r/a", {}}) == "r/a" + twice);
+  CHECK(refusal(converters, {"r/a", "r/a", {}}) ==
+        "r/a: source and target are the same model (choose another model for one of them)");
   CHECK(refusal(converters, {"r/a", "r/b", {"r/a"}}) == "r/a" + twice);
   CHECK(refusal(converters, {"r/a", "r/b", {"r/b"}}) == "r/b" + twice);
   CHECK(refusal(converters, {"r/a", "r/c", {"r/hub", "r/hub"}}) == "r/hub" + twice);
@@ -222,14 +223,14 @@ TEST_CASE("path: a missing link is named from both sides, with the nearest model
   converters.add("mitsuba/as", "mitsuba/ggx", 0.1);
   converters.add("cycles/beckmann", "cycles/ggx", 0.1);
   CHECK(refusal(converters, {"mitsuba/ward", "cycles/ggx", {}}) ==
-        "mitsuba/ward to cycles/ggx: no converters lead there (mitsuba/ward converts to mitsuba/as, "
-        "mitsuba/ggx; most similar name: mitsuba/ggx; models that convert to cycles/ggx: cycles/beckmann)");
+        "mitsuba/ward to cycles/ggx: no converters join these models (mitsuba/ward can become mitsuba/as, "
+        "mitsuba/ggx; most similar name: mitsuba/ggx; cycles/ggx can be made from cycles/beckmann)");
   CHECK(
       refusal(converters, {"mitsuba/ggx", "mitsuba/ward", {}}) ==
-      "mitsuba/ggx to mitsuba/ward: no converters lead there (mitsuba/ggx converts to no model; models that "
-      "convert to mitsuba/ward: none)");
+      "mitsuba/ggx to mitsuba/ward: no converters join these models (mitsuba/ggx can become no other model; "
+      "no model can become mitsuba/ward)");
   CHECK_THAT(refusal(converters, {"mitsuba/ward", "mitsuba/ggx", {"cycles/ggx"}}),
-             Catch::Contains("mitsuba/ward to cycles/ggx: no converters lead there"));
+             Catch::Contains("mitsuba/ward to cycles/ggx: no converters join these models"));
 }
 
 TEST_CASE("path: an unknown model is answered with the nearest") {

@@ -63,7 +63,8 @@ TEST_CASE("The exact form uses an index of 0", "[assets]") {
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.2,0.3,0.4,1],"metallicFactor":0,"roughnessFactor":0}}]})");
   const AssetConversion taken = result_of(specgloss_text("{},\"KHR_materials_ior\":{}"), kExact);
   CHECK(taken.materials[0].failure ==
-        "has KHR_materials_ior already, which the exact form needs (convert it without --extensions)");
+        "has KHR_materials_ior already, but --extensions write would have to add this extension (convert the "
+        "file without --extensions)");
 }
 
 TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {
@@ -76,7 +77,7 @@ TEST_CASE("The fallback goes, and what else it holds stays", "[assets]") {
   const AssetConversion result = result_of(text);
   CHECK(result.materials[0].warnings ==
         std::vector<std::string>{"loses extras.both of KHR_materials_pbrSpecularGlossiness, because "
-                                 "pbrMetallicRoughness has its own"});
+                                 "pbrMetallicRoughness has the same member"});
   CHECK(
       material_of(specgloss_text(R"({"specularFactor":[1,1,1],"extras":[3.50]})")) ==
       R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":1,"roughnessFactor":0,"extras":[3.50]}})");
@@ -125,14 +126,14 @@ TEST_CASE("A failed material keeps the extension in its lists", "[assets]") {
       R"({"KHR_animation_pointer":{"pointer":"/materials/1/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor"}}}}]}]})";
   const AssetConversion result = result_of(text);
   CHECK(result.count(MaterialState::kConverted) == 1);
-  CHECK(
-      result.materials[1].failure ==
-      "an animation changes it by KHR_animation_pointer, which would lose its target (remove that channel)");
+  CHECK(result.materials[1].failure ==
+        "an animation (KHR_animation_pointer) changes a value that this conversion replaces (remove this "
+        "channel of the animation)");
   CHECK(result.text.find(R"("extensionsRequired":["A","KHR_materials_pbrSpecularGlossiness"])") !=
         std::string::npos);
   CHECK(result.warnings ==
-        std::vector<std::string>{"requires A, which texremap does not know: it stays, but may not fit the "
-                                 "converted materials"});
+        std::vector<std::string>{"requires A, which texremap does not know: texremap keeps this extension, "
+                                 "but it may not match the converted materials"});
 }
 
 TEST_CASE("A file without spec-gloss does not change", "[assets]") {
@@ -149,7 +150,7 @@ TEST_CASE("Containers keep their chunks", "[assets]") {
   CHECK(converted == glb_bytes(converted_bytes(specgloss_text("{}")), binary + own));
   CHECK(converted_bytes(converted) == converted);
   CHECK(convert_gltf(MemorySource(bytes), "a").warnings ==
-        std::vector<std::string>{"its JSON is padded with zeros instead of the spaces that glTF requires"});
+        std::vector<std::string>{"the JSON is padded with zeros, but glTF requires spaces"});
 }
 
 TEST_CASE("Damaged containers are refused", "[assets]") {
@@ -167,9 +168,10 @@ TEST_CASE("Damaged containers are refused", "[assets]") {
   CHECK(asset_failure(lies) == "a.glb: is a GLB file of version 1, but only version 2 can be read");
   lies = good;
   lies.replace(16, 4, "BIN ");
-  CHECK(asset_failure(lies) == "a.glb: its first chunk is not JSON");
-  CHECK(asset_failure("glTF" + four_bytes(2) + four_bytes(12)) == "a.glb: has no JSON chunk");
-  CHECK(asset_failure("{}") == "a.glb: has no asset.version (it is not a glTF file)");
+  CHECK(asset_failure(lies) == "a.glb: its first chunk is not JSON (the file is damaged; export it again)");
+  CHECK(asset_failure("glTF" + four_bytes(2) + four_bytes(12)) ==
+        "a.glb: has no JSON chunk (the file is damaged; export it again)");
+  CHECK(asset_failure("{}") == "a.glb: is not a glTF file, because it has no asset.version");
   CHECK(asset_failure(R"({"asset":{"version":"1.0"}})") ==
         "a.glb: is glTF 1.0, but only glTF 2 can be read (convert it to glTF 2 first)");
   CHECK(asset_failure(R"({"asset":{"version":"2.0"},"materials":{}})") ==
@@ -184,11 +186,11 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
             R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteOffset":1,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: ends at byte 5 of buffer 0, but the buffer has only 4 bytes");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
-        "a.glb: /buffers/1: its byteLength is not an integer");
+        "a.glb: /buffers/1: byteLength is not an integer (export the file again)");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
         "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
-        "a.glb: /bufferViews/0: its buffer, byteOffset and byteLength are not integers");
+        "a.glb: /bufferViews/0: buffer, byteOffset and byteLength must be integers (export the file again)");
   CHECK(
       asset_failure(glb_bytes(with(R"("buffers":[{"byteLength":8}])"), chunk_bytes(kBinaryChunk, "abcd"))) ==
       "a.glb: /buffers/0 has 8 bytes, but the binary chunk has 4");

@@ -236,8 +236,7 @@ TEST_CASE("Maps of core that do not lie on one grid are named", "[assets]") {
       core_textured(R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1,"texCoord":1})"));
   CHECK(failures_of(bytes, specgloss_target()).front() ==
         "its base color texture lies on TEXCOORD_0, its metallic roughness texture on TEXCOORD_1, and both "
-        "decide "
-        "on specular color (bake them onto one in a modeller)");
+        "decide on specular color (bake both with one set of UVs, for example in Blender)");
 }
 
 TEST_CASE("Compaction gives places of spare images to new ones, and cuts their bytes", "[assets]") {
@@ -363,7 +362,7 @@ TEST_CASE("Files with unknown extensions are not compacted", "[assets]") {
   const PlainResources resources;
   const AssetConversion result = convert_gltf(MemorySource(bytes), "file", with_compaction(), &resources);
   CHECK(result.warnings ==
-        std::vector<std::string>{"is not compacted, because ACME_atlas may name its images or bytes"});
+        std::vector<std::string>{"keeps its unused images, because the extension ACME_atlas may use them"});
   CHECK(Reread(converted_bytes(bytes, with_compaction(), &resources)).root()["images"].size() == 4);
 }
 

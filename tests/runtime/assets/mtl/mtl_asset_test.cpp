@@ -295,9 +295,9 @@ TEST_CASE("Maps that cannot be converted fail with a reason", "[assets]") {
   CHECK(failure("map_Kd -cc on d.png\n") ==
         "d.png: has -cc on, which is not applied (bake it into the image)");
   CHECK(failure("map_Kd -s 2 2 d.png\nmap_Ks d.png\n") ==
-        "d.png and d.png lie on the surface in different places (-s, -o, -clamp); use one for both");
+        "d.png and d.png have different options -s, -o or -clamp (give both maps the same options)");
   CHECK(converted_mtl("newmtl a\nKs 1 1 1\nmap_Ns d.png\n", &resources).materials[0].failure ==
-        "has map_Ns but no Ns, which the map multiplies (add a line Ns)");
+        "has map_Ns but no Ns, which the map multiplies (add a line such as Ns 1000)");
 }
 
 TEST_CASE("Names that lead out of the folder are looked for beside the file", "[assets]") {

@@ -234,7 +234,7 @@ TEST_CASE("reports: a black Kd beside a map is not used", "[assets]") {
   resources.files["c.png"] = map_bytes({{10, 20, 30}, {200, 100, 50}});
   const Scene scene = scene_of("newmtl a\nKd 0 0 0\nmap_Kd c.png\n", resources);
   CHECK(scene.base() == std::vector<double>{1, 1, 1});
-  CHECK(scene.warnings() == "Kd is 0, which would make map_Kd black: 1 is used instead\n");
+  CHECK(scene.warnings() == "Kd is 0, which would make map_Kd black: texremap uses Kd 1\n");
   CHECK(scene_of("newmtl a\nKd 0 0 0\n").base() == std::vector<double>{0, 0, 0});
 }
 

@@ -118,7 +118,7 @@ TEST_CASE("Groups and objects become nodes; normals get length 1, or come from f
   CHECK(scene.shapes[2].primitives[0].normals.empty());
   CHECK(scene.warnings ==
         std::vector<std::string>{
-            "normals of 1 mesh part that are missing or have length 0 become the normals of its faces"});
+            "normals that are missing or have length 0 become the normals of the faces (1 mesh part)"});
 }
 
 TEST_CASE("A group that is read in parts is one shape", "[assets]") {
