@@ -74,7 +74,8 @@ void add_sample_options(Command& app, SweepCommand& command) {
                  "Range of the source's alpha")
       ->default_text("0.01,1");
   app.add_option("--specular-range MIN,MAX", command.specular_range, number_range(),
-                 "Range of the source's specular, F0 for an index (default: the model's range)");
+                 "Range of the source's specular, or of its F0 if the model has an index of refraction "
+                 "(default: the model's range)");
   app.add_option("--diffuse", command.sweep.diffuse, "Diffuse reflectance of the source in every sample");
   app.add_option("--samples-of FILE", command.samples_of.path,
                  "Use the samples of this table instead of a grid");

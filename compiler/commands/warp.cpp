@@ -87,7 +87,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const WarpCommand& com
       {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
       {"directions fixed by strokes", std::to_string(found.fixed_directions)},
       {"used part of the template's appearances", percent(found.coverage)},
-      {"folds", percent(found.fold_share)},
+      {"part of the source that the warp folds", percent(found.fold_share)},
       {"distance of strokes after the warp, relative to the template's spread",
        percent(found.stroke_distance)},
       {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}};
@@ -116,7 +116,7 @@ void print_words(const std::filesystem::path& name, const WarpDiagnostics& found
                  const std::string& more = "") {
   std::cerr << name.string() << ": warp in " << found.dimensions << " dimensions from "
             << found.strokes.size() << " stroke pairs\n  template used " << percent(found.coverage)
-            << ", folds " << percent(found.fold_share) << ", distance of strokes "
+            << ", source folded " << percent(found.fold_share) << ", distance of strokes "
             << percent(found.stroke_distance) << " of the template's spread\n"
             << more;
   for (const std::string& warning : warnings_of(found)) print_message("remapc", "warning: " + warning);

@@ -25,7 +25,7 @@ complete -c remapc -n '__fish_seen_subcommand_from sweep' -l quiet -d 'Print no 
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l roughness-samples -x -d 'Number of source alphas'
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l specular-samples -x -d 'Number of source speculars for each alpha'
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l roughness-range -x -d 'Range of the source\'s alpha'
-complete -c remapc -n '__fish_seen_subcommand_from sweep' -l specular-range -x -d 'Range of the source\'s specular, F0 for an index'
+complete -c remapc -n '__fish_seen_subcommand_from sweep' -l specular-range -x -d 'Range of the source\'s specular, or of its F0 if the model has an index of refraction'
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l diffuse -x -d 'Diffuse reflectance of the source in every sample'
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l samples-of -r -F -d 'Use the samples of this table instead of a grid'
 complete -c remapc -n '__fish_seen_subcommand_from sweep' -l objective -x -d 'natural: light at 65 degrees, relative weights, and the mean'

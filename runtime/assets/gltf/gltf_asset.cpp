@@ -113,7 +113,7 @@ void check_view(SpanValue view, const std::vector<std::size_t>& lengths, const s
     throw input_error(name + ": buffer, byteOffset and byteLength must be integers (export the file again)");
   if (*buffer >= lengths.size())
     throw input_error(name + ": refers to buffer " + std::to_string(*buffer) + ", but the file has " +
-                      counted(lengths.size(), "buffer"));
+                      counted(lengths.size(), "buffer") + ", numbered from 0 (export the file again)");
   if (const std::size_t size = lengths[*buffer]; *offset + *length > size)
     throw input_error(name + ": ends at byte " + std::to_string(*offset + *length) + " of buffer " +
                       std::to_string(*buffer) + ", but the buffer has only " + counted(size, "byte"));

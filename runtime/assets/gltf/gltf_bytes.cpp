@@ -21,7 +21,7 @@ constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;  // limit for th
 SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, const char* name) {
   if (index >= list.size())
     throw input_error("refers to " + std::string(name) + " " + std::to_string(index) + ", but the file has " +
-                      counted(list.size(), name));
+                      counted(list.size(), name) + ", numbered from 0 (export the file again)");
   return list[index];
 }
 

@@ -143,7 +143,7 @@ void print_workflow(const WorkflowModel& model) {
             << "  diffuse  " << diffuse_convention_name(diffuse_of(model.end));
   if (metallic != nullptr) std::cout << ", dielectric F0 " << metallic->dielectric_f0;
   std::cout << (model.conventions_known ? "" : " (assumed)") << '\n'
-            << "  over     " << model.brdf << '\n'
+            << "  BRDF     " << model.brdf << '\n'
             << "  because  " << model.reason << '\n';
   const char* title = "  also     ";
   for (const ModelAlias& alias : model_aliases()) {

@@ -111,8 +111,8 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     std::error_code ignored;
     if (same_file(source, job.input))
-      throw input_error(context + display_path(resource.path) +
-                        " refers to itself (remove this reference from the file)");
+      throw input_error(context + "refers to " + display_path(resource.path) +
+                        " as an image or buffer, but this is the file itself (correct this reference)");
     if (!fs::is_regular_file(source, ignored)) {
       plan.warnings.push_back("refers to " + display_path(resource.path) + ", which was not found");
       continue;

@@ -75,10 +75,12 @@ void add_tree(const ConvertOptions& options, JobList& list) {
   for (const WalkProblem& problem : walk.problems) list.skipped.push_back({problem.message, true});
   list.is_of_folder = list.has_several = true;
   if (list.jobs.empty())
-    throw usage_error(display_path(options.folder) + ": contains no " + asset_words(options.format) +
-                      (!options.recursive       ? " (--recursive also searches its subfolders)"
-                       : options.format.empty() ? " (add --format glb to find OBJ files)"
-                                                : " (remove --format to find glTF and MTL files)"));
+    throw usage_error(
+        display_path(options.folder) + ": contains no " + asset_words(options.format) +
+        (options.format.empty() ? "" : ", and --format " + options.format + " applies to OBJ files only") +
+        (!options.recursive       ? " (--recursive also searches its subfolders)"
+         : options.format.empty() ? " (add --format glb to find OBJ files)"
+                                  : " (remove --format to find glTF and MTL files)"));
 }
 
 void add_listed(const ConvertOptions& options, const TreeManifest& tree, JobList& list) {

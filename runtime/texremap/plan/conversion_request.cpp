@@ -92,8 +92,9 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
     if (is_input(parameter) && !workflow.translation)
       throw usage_error(
           parameter_option(parameter) +
-          ": one of --from and --to must be openpbr or standard-surface, and the other must be openpbr, "
-          "standard-surface, blender, gltf or usd (for other models, convert to openpbr first)");
+          ": requires openpbr or standard-surface in --from or --to, and in the other openpbr, "
+          "standard-surface, gltf, usd or, only in --from, blender (choose such models, or remove this "
+          "option)");
     const bool is_used = parameter == Parameter::kOcclusion ||
                          (parameter == Parameter::kMetalMask && workflow.finds_metallic());
     if (!is_used) refuse_input("--input", parameter);

@@ -63,8 +63,9 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
       std::filesystem::weakly_canonical(output, failure)
           .lexically_relative(std::filesystem::weakly_canonical(tree, failure));
   if (!output.empty() && !below.empty() && *below.begin() != "..")
-    throw usage_error("--output " + output.string() + ": is inside " + tree.string() +
-                      ", the folder of the manifest (choose a folder outside " + tree.string() + ")");
+    throw usage_error("--output " + output.string() + ": is " +
+                      (below == "." ? "" : "inside " + tree.string() + ", ") +
+                      "the folder that the manifest lists (choose a folder outside " + tree.string() + ")");
 }
 
 // Returns a warning if roughness maps of a folder are read in an encoding that few tools write, or "".

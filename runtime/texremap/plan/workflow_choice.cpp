@@ -88,7 +88,7 @@ ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFi
   for (const ModelName* model : {&options.from, &options.to})
     if (model->diffuse)
       throw usage_error(prefixes_of(*model) + model->name + ": maps of the warp " + warp +
-                        " have plain diffuse (remove " +
+                        " always have plain diffuse (a prefix cannot choose it; remove " +
                         std::string(diffuse_convention_name(*model->diffuse)) + ":)");
   if (options.to.workflow)
     throw usage_error("--to: results of the warp " + warp +

@@ -20,7 +20,9 @@ void OutputFolder::require_free(const fs::path& file) const {
   const fs::file_status status = fs::symlink_status(file, ignored);
   if (!fs::exists(status)) return;
   if (fs::is_directory(file, ignored))
-    throw output_error(file.string() + ": is a folder (choose another name)");
+    throw output_error(
+        file.string() +
+        ": is a folder, but a file would be written here (choose another path, or rename the folder)");
   if (plan_.force) return;
   const bool is_own = journal_ && journal_->is_own(file);
   // If the user gives the maps one by one, an earlier run may have made this file from other maps of the same

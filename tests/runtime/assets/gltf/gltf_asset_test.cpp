@@ -188,7 +188,8 @@ TEST_CASE("Views beyond their buffers are refused", "[assets]") {
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4},{}])")) ==
         "a.glb: /buffers/1: byteLength is not an integer (export the file again)");
   CHECK(asset_failure(with(R"("bufferViews":[{"buffer":3,"byteLength":4}])")) ==
-        "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers");
+        "a.glb: /bufferViews/0: refers to buffer 3, but the file has 0 buffers, numbered from 0 (export the "
+        "file again)");
   CHECK(asset_failure(with(R"("buffers":[{"byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":-4}])")) ==
         "a.glb: /bufferViews/0: buffer, byteOffset and byteLength must be integers (export the file again)");
   CHECK(

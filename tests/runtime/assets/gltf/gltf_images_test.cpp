@@ -180,7 +180,8 @@ TEST_CASE("Maps that do not lie on one grid fail", "[assets]") {
   CHECK(failure(R"("index":0)", R"("index":2)") ==
         "its diffuse image has 6x5 texels, its specular glossiness image 6x4 (use --resample, or "
         "--extensions write)");
-  CHECK(failure(R"("index":9)", R"("index":1)") == "refers to texture 9, but the file has 3 textures");
+  CHECK(failure(R"("index":9)", R"("index":1)") ==
+        "refers to texture 9, but the file has 3 textures, numbered from 0 (export the file again)");
 }
 
 TEST_CASE("Images in files and in URIs stay what they are", "[assets]") {
