@@ -138,7 +138,7 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
                [](int x, int y, int c) { return x == 5 && y == 6 ? 9.0f : 0.3f * noise(x, y, c); });
   const ProcessResult result =
       require_success(session.convert("r.exr", "s.exr", "--format tif --type uint8"));
-  CHECK_THAT(result.errors, Contains("3 values clipped to [0, 1]"));
+  CHECK_THAT(result.errors, Contains("3 values clipped to 0 or 1"));
   const TestImage out = session.image("out/s.tif");
   CHECK(out.spec.format == OIIO::TypeUInt8);
   check_converted(session.image("r.exr"), session.image("s.exr"), session.image("out/r.tif"), out);

@@ -25,8 +25,8 @@ inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "mtl"
 // specification describes them.
 MtlMaker maker_of(const MtlDocument& document);
 
-// Returns a warning that the file is read as this maker writes it: `Blender wrote it: ...`. Returns nothing
-// for kText.
+// Returns a warning that the file is read as this maker writes it: `was written by Blender: ...`. Returns
+// nothing for kText.
 std::string maker_warning(MtlMaker maker);
 
 // Returns the Ns that Blender writes for roughness 0.

@@ -58,7 +58,7 @@ TEST_CASE("picture cache: another version of the renderer renders again, and rep
   renderer.render(fake_material(), kSmallScene);
   CHECK(session.pictures() == 2);
   REQUIRE(renderer.remarks().size() == 1);
-  CHECK_THAT(renderer.remarks()[0], Contains("pictures of Fake-1-") && Contains("this is Fake 2"));
+  CHECK_THAT(renderer.remarks()[0], Contains("pictures of Fake-1-") && Contains("is now Fake 2"));
 }
 
 TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {

@@ -88,7 +88,7 @@ TEST_CASE("reports: 01 numbers of Blender's exporter go back exactly", "[assets]
   CHECK(scene.number("metallicFactor", 2) == Approx(0.6));
   CHECK(scene.number("roughnessFactor", 3) == Approx(0.5));
   CHECK(scene.base(3) == std::vector<double>{1, 1, 1});
-  CHECK(scene.warnings().find("a.mtl: Blender wrote it") == 0);
+  CHECK(scene.warnings().find("a.mtl: was written by Blender") == 0);
   const AssetConversion lines = converted_mtl(mtl, &resources);
   CHECK(value_of(lines, "Kd") == "1 1 1");
   CHECK(value_of(lines, "Pr") == "0.5");
