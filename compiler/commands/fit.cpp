@@ -231,8 +231,8 @@ void add_regression_options(Command& app, FitCommand& command) {
   FitOptions& options = command.options;
   app.option_group("Regression");
   app.add_option("--model NAME", options.kind, one_of(kModels, "kind of fit"),
-                 "auto: as few terms as pictures need; parametric: polynomial and exponentials of the paper; "
-                 "svr: support vectors; mlp: a small network")
+                 "auto: the shortest form whose pictures are as good as the best; parametric: polynomial and "
+                 "exponentials of the paper; svr: support vectors; mlp: a small network")
       ->default_text("auto");
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "

@@ -250,7 +250,7 @@ void add_preview_command(Command& app) {
   command->option_group("Output");
   command->add_option(
       "-o,--output FILE", options.output,
-      "PNG to write: a row per light, shape and alpha; source, numbers copied, numbers converted");
+      "PNG to write: a row per light, shape and alpha; columns: source, numbers copied, numbers converted");
   command->add_flag("--no-labels", options.bare, "Write only the pictures, without names and numbers");
   add_force_flag(*command, options.force);
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");

@@ -33,9 +33,9 @@ FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
     return set.state == SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
   });
   if (found.sets.size() != 1)
-    throw input_error(
-        folder.string() + ": contains " + std::to_string(found.sets.size()) +
-        " texture sets, but must contain exactly one (rename the maps to diffuse, specular and roughness)");
+    throw input_error(folder.string() + ": contains " + std::to_string(found.sets.size()) +
+                      " texture sets, but must contain exactly one (give a folder with the maps of one "
+                      "material, with diffuse, specular and roughness in their names)");
   if (found.sets[0].state == SetState::kFaulty)
     throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
                                                     : found.sets[0].remarks[0]);

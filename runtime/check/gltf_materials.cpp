@@ -212,7 +212,7 @@ class GltfMaterials {
         if (image < images_.size()) images.push_back(map_of_image(image));
     if (images.empty()) {
       found_.problems.push_back(material.name + ": texture " + std::to_string(texture) +
-                                " has no image in a known format");
+                                " has no image in a known format (export it with PNG or JPEG images)");
       return std::nullopt;
     }
     MaterialMap map = std::move(images.front());

@@ -392,8 +392,8 @@ void require_scale(const TextureSet& set, RoughnessEncoding width) {
   if (is_integer(set.maps[place.map].layout().channels[place.channel].type))
     throw input_error(
         set.maps[place.map].path().string() +
-        ": contains integers, which texremap cannot read as exponents (set the exponent of white by --factor "
-        "roughness=NUMBER: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
+        ": contains integers, which texremap cannot read as exponents (--factor roughness=NUMBER sets the "
+        "exponent that a white texel means: 1000 in MTL files, 128 in OpenGL, 100 for percent)");
 }
 
 std::vector<std::string> remarks(const TextureSet& set) {

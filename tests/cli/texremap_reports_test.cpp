@@ -86,7 +86,8 @@ TEST_CASE("reports: 04 check looks at the image of a texture that convert reads"
   session.gltf("other.gltf", material, R"({"extensions":{"VENDOR_texture_new":{"source":0}}})",
                R"({"uri":"n.new"})");
   CHECK(session.findings("other.gltf") ==
-        Found{"not read: other.gltf: material \"m\": texture 0 has no image in a known format"});
+        Found{"not read: other.gltf: material \"m\": texture 0 has no image in a known format (export it "
+              "with PNG or JPEG images)"});
 }
 
 TEST_CASE("reports: 05 what a factor of 0 turns off cannot be wrong", "[slow]") {

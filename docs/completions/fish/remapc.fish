@@ -130,7 +130,7 @@ complete -c remapc -n '__fish_seen_subcommand_from fit' -l id -x -d 'Id of the f
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l plot -r -F -d 'Plot rows, fits and residuals to this file, SVG or PNG by its name'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l force -d 'Overwrite files that exist'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l json -d 'Print a summary as JSON to standard output'
-complete -c remapc -n '__fish_seen_subcommand_from fit' -l model -x -a 'auto parametric svr mlp' -d 'auto: as few terms as pictures need'
+complete -c remapc -n '__fish_seen_subcommand_from fit' -l model -x -a 'auto parametric svr mlp' -d 'auto: the shortest form whose pictures are as good as the best'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l swap -d 'Fit the inverse, from the table\'s target to its source'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -s h -l help -d 'Show this help'
 complete -c remapc -n '__fish_seen_subcommand_from fit' -l help-all -d 'Show all options'

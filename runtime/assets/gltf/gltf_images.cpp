@@ -80,7 +80,8 @@ TextureInfo GltfImages::info_of(SpanValue texture_info) const {
 AssetImage GltfImages::load(const TextureInfo& info) {
   const std::vector<std::size_t> candidates = images_of_texture(textures_[info.texture]);
   if (candidates.empty())
-    throw input_error("texture " + std::to_string(info.texture) + " has no image in a known format");
+    throw input_error("texture " + std::to_string(info.texture) +
+                      " has no image in a known format (export it with PNG or JPEG images)");
   std::string reason;
   for (const std::size_t image : candidates) {
     if (const auto known = std::ranges::find(recent_, image, &AssetImage::image); known != recent_.end()) {

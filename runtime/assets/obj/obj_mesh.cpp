@@ -104,7 +104,9 @@ class ObjStream final : public std::streambuf {
 
   void warn() {
     if (dropped_ > 0)
-      scene_.warnings.push_back(counted(dropped_, "line") + " of points, lines, curves or surfaces skipped");
+      scene_.warnings.push_back(
+          counted(dropped_, "statement") +
+          " skipped (only faces are converted, not points, lines, curves and surfaces)");
     if (small_ > 0)
       scene_.warnings.push_back(counted(small_, "face") + " with fewer than three corners skipped");
     if (fans_ > 0)

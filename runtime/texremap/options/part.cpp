@@ -102,8 +102,7 @@ Part ArrayJob::part(std::optional<std::size_t> count) const {
   if (index < first || index - first >= *count)
     throw usage_error("--part auto" + (is_given ? "/" + std::to_string(*count) : "") + ": " + text() +
                       " is not between " + std::to_string(first) + " and " +
-                      std::to_string(first + *count - 1) + " (begin the array at " + std::to_string(first) +
-                      ")");
+                      std::to_string(first + *count - 1) + " (give the array only these numbers)");
   const std::size_t own = index - first + 1;
   return {own, *count,
           std::string(scheduler_.name) + ": " + text() + " is part " + std::to_string(own) + " of " +

@@ -92,9 +92,8 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
     if (is_input(parameter) && !workflow.translation)
       throw usage_error(
           parameter_option(parameter) +
-          ": requires openpbr or standard-surface in --from or --to, and in the other openpbr, "
-          "standard-surface, gltf, usd or, only in --from, blender (choose such models, or remove this "
-          "option)");
+          ": requires openpbr or standard-surface as one of the two models (the other one can "
+          "also be gltf or usd, or blender in --from; choose such models, or remove this option)");
     const bool is_used = parameter == Parameter::kOcclusion ||
                          (parameter == Parameter::kMetalMask && workflow.finds_metallic());
     if (!is_used) refuse_input("--input", parameter);

@@ -227,8 +227,9 @@ void require_asset_options(const ConvertOptions& options) {
     refuse(options, kNeedsTree,
            ": applies only to folders of assets (remove this option, or give a folder and --assets)");
   if (is_tree && !options.more_assets.empty())
-    throw usage_error(std::string(options.assets ? "--assets" : "--manifest") + ": cannot be used with " +
-                      display_path(options.more_assets.front()) + " (give one folder)");
+    throw usage_error(std::string(options.assets ? "--assets" : "--manifest") +
+                      ": converts one folder, but " + display_path(options.more_assets.front()) +
+                      " is given, too (give only one folder)");
   const bool is_core_source = options.from.name == "gltf" && options.to.name == "gltf-specgloss";
   if (!options.from.empty() && options.from.name != "gltf-specgloss" && !is_core_source &&
       !mtl_maker_of(options))
@@ -249,10 +250,11 @@ void require_asset_options(const ConvertOptions& options) {
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");
 }
 
-const std::string kOnlyGltf = ": applies to glTF files only (remove this option)";
+const std::string kOnlyGltf = ": applies only if the input is a glTF file";
 
 void require_no_jpeg(const ConvertOptions& options) {
-  if (options.compression.jpeg_quality) throw usage_error("--compression jpeg" + kOnlyGltf);
+  if (options.compression.jpeg_quality)
+    throw usage_error("--compression jpeg" + kOnlyGltf + " (remove jpeg=QUALITY)");
 }
 
 // Refuses options that no asset of the run uses.
@@ -262,8 +264,9 @@ void require_gltf(const ConvertOptions& options, const JobList& list) {
     throw usage_error("--from " + std::string(options.from.word()) +
                       ": applies to MTL and OBJ files only (remove this option)");
   if (std::ranges::any_of(list.jobs, is_gltf)) return;
-  refuse(options, kNeedsGltf, kOnlyGltf);
-  if (options.extensions == DielectricExtensions::kFolded) throw usage_error("--extensions fold" + kOnlyGltf);
+  refuse(options, kNeedsGltf, kOnlyGltf + " (remove this option)");
+  if (options.extensions == DielectricExtensions::kFolded)
+    throw usage_error("--extensions fold" + kOnlyGltf + " (remove this option)");
   require_no_jpeg(options);
   if (options.to.name != "gltf")
     throw usage_error("--to " + options.to.name +

@@ -19,7 +19,9 @@ void require_estimable(const ConversionChoice& choice) {
 // Refuses options that require a workflow, or a target with metallic.
 void require_workflow(const ConvertOptions& options, const ConversionChoice& choice) {
   if (choice.is_material())
-    refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
+    refuse(options, kNotWithWorkflow,
+           " cannot be used, because this conversion changes the maps of a material together (remove this "
+           "option)");
   else
     refuse(
         options, kNeedsWorkflow | kNeedsMetallic,

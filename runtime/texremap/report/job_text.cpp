@@ -94,8 +94,8 @@ void print_confidence(const std::string& context, const SetPlan& sets, const Job
                               " at most");
   print_message(kProgram, context + "metallic is undetermined, without visible effect, in " +
                               share(metallic.undetermined.count) + " of the texels (too dark in " +
-                              share(metallic.dark.count) + "), ambiguous in " +
-                              share(metallic.ambiguous.count) + ", clamped in " +
+                              share(metallic.dark.count) + "), has two possible values in " +
+                              share(metallic.ambiguous.count) + ", is clamped in " +
                               share(metallic.clamped.count));
 }
 
@@ -146,14 +146,12 @@ void print_set(const ConvertPlan& plan, const std::string& context, const JobRep
   const auto visible_line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
     if (is_told(count)) line(count, what, noun);
   };
-  if (plan.verbose)
-    line(counts.masked_count, " with opacity 0 are converted, but not counted in these lines");
+  if (plan.verbose) line(counts.masked_count, " with opacity 0 converted, but not counted in these lines");
   visible_line(
       counts.above_one_count,
-      " would reflect more light than arrives, and are clamped to 1 (put emission into a separate map)");
-  visible_line(
-      counts.out_of_domain_count,
-      " outside " + outside_text(chosen) + ": their roughness is clamped, their specular is extrapolated");
+      " clamped to 1, instead of reflecting more light than arrives (put emission into a separate map)");
+  visible_line(counts.out_of_domain_count,
+               " outside " + outside_text(chosen) + ": roughness is clamped, specular is extrapolated");
   line(counts.nan_count, " with NaN" + first_text(counts));
   line(counts.infinite_count, " with infinite values" + first_text(counts));
   line(counts.negative_count, " with negative values" + first_text(counts));

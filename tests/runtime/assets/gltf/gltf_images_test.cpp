@@ -236,7 +236,7 @@ TEST_CASE("A material whose image is missing fails, and others go on", "[assets]
       std::vector<std::string>{
           "", "a.png: is not there", "image 1: is no image",
           "https://example.org/c.ktx2: is a remote address (download the file into the folder of the asset)",
-          "texture 3 has no image in a known format"});
+          "texture 3 has no image in a known format (export it with PNG or JPEG images)"});
 }
 
 TEST_CASE("The best image that can be decoded is taken", "[assets]") {
