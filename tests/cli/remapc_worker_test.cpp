@@ -214,7 +214,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   for (std::string& word : arguments)
     if (word == "5") word = "8";  // a fit needs more alphas and, below, more speculars
   std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
-  const std::string words = ": the source's light is multiplied by 1.";
+  const std::string words = ": diffuse matches only if the light of the source is multiplied by 1.";
   ProcessResult result = session.remapc(arguments);
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.errors, Contains("fake/ggx to mitsuba/ggx-plain" + words) && Contains("--accept-light"));
@@ -223,7 +223,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   result = require_success(session.remapc(arguments));
   CHECK_THAT(result.errors, Contains("remapc: warning: a.csv" + words));
   CHECK_THAT(result.output, Contains("\"irradiance_scale\": 1.") && Contains("\"diffuse_error\": 0.") &&
-                                Contains("\"light_warning\": \"the source's light"));
+                                Contains("\"light_warning\": \"diffuse matches only"));
   result = session.remapc("check a.csv");
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Contains("warning: light" + words));

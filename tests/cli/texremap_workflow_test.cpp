@@ -202,7 +202,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
   warned(words, "specular, read as linear, is white everywhere");
   write_specular(session, 8.0f);
-  warned(words, "texels reflect more than all light; clamped to 1");
+  warned(words, "texels clamped to 1, instead of reflecting more light");
   write_specular(session);
   warned(words,
          "assuming plain diffuse for specular and metallic (otherwise, use "
