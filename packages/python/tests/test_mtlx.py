@@ -550,11 +550,11 @@ def test_command(tmp_path, maps):
     for words, message in (
         ((source, "--to", "gltf", "-o", tmp_path / "out.gltf"), "exists (use --force"),
         ((source, "--to", "openpbr", "-o", tmp_path / "new.glb"), "a glTF file cannot hold openpbr"),
-        ((source, "--to", "gltf", "--for", "core", "-o", tmp_path / "new.mtlx"), "--for core is about glTF files"),
+        ((source, "--to", "gltf", "--for", "core", "-o", tmp_path / "new.mtlx"), "--for core applies only to glTF files"),
         ((source, "--to", "gltf", "-o", source), "is the input"),
         ((tmp_path / "out.gltf", "--to", "gltf", "-o", tmp_path / "new.gltf"), "is glTF already"),
         ((tmp_path / "none.mtlx", "--to", "gltf", "-o", tmp_path / "new.gltf"), "none.mtlx: cannot be read: file not found"),
-        ((source, "--to", "gltf", "-o", tmp_path / "new.usda"), "a result is .mtlx, .glb or .gltf"),
+        ((source, "--to", "gltf", "-o", tmp_path / "new.usda"), "the file name must end with .mtlx, .glb or .gltf"),
     ):
         refused = run(*words)
         assert refused.returncode == 1 and message in refused.stderr, refused.stderr

@@ -315,7 +315,7 @@ def test_command_and_bad_input(scene, tmp_path):
     for words, message in (
         ((tmp_path / "none.usda", "-o", tmp_path / "out.usda"), "none.usda: cannot be read: file not found"),
         ((scene, "-o", scene), "is the input"),
-        ((scene, "-o", tmp_path / "out.glb"), "a result is .usda"),
+        ((scene, "-o", tmp_path / "out.glb"), "the file name must end with .usda"),
     ):
         refused = run(*words)
         assert refused.returncode == 1 and message in refused.stderr, refused.stderr
