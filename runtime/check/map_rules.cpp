@@ -200,8 +200,8 @@ void linear_color(const CheckedMaterial& material, const GltfConsumer*, const Ru
       return;
     findings.push_back(
         {rule.name, Confidence::kLikely, map.shown, "",
-         "is a color stored as integers that its file tags as linear; programs that ignore the tag (as glTF "
-         "requires) decode it as sRGB",
+         "is a color stored as integers, and its file has the tag linear; programs that ignore the tag (as "
+         "glTF requires) decode it as sRGB",
          image_fix(
              material, map,
              "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "

@@ -51,7 +51,7 @@ constexpr std::array<GltfConsumer, 6> kReaders = {{
 constexpr std::array<Rule, 22> kRules = {{
     {"srgb-data", "a map of numbers (roughness, metallic, normal, ...) that its file tags as sRGB",
      look::srgb_data},
-    {"linear-color", "a color map stored as integers that its file tags as linear", look::linear_color},
+    {"linear-color", "a color map of integers whose file has the tag linear", look::linear_color},
     {"specular-color",
      "a specular map that is black or white everywhere, or whose F0 only fits another color space",
      look::specular_color},

@@ -13,7 +13,7 @@ void require_fit_file(const Field& root) {
   if (version != kFitFormatVersion)
     root.fail("has format version " + std::to_string(version) + ", but this program reads version " +
               std::to_string(kFitFormatVersion) +
-              (version < kFitFormatVersion ? " (run remapc fit on its table again)"
+              (version < kFitFormatVersion ? " (make it again by remapc fit or remapc warp)"
                                            : " (use the newer remap that wrote it)"));
 }
 

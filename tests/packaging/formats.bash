@@ -28,7 +28,7 @@ expect_exit 0 "$bin/remapc" show fitted/$id.json
 expect_output "kind compact, by remapc "
 
 expect_exit 1 "$bin/remapc" show "$formats/fit_of_version_3.json"
-expect_output "has format version 3, but this program reads version 4 (run remapc fit on its table again)"
+expect_output "has format version 3, but this program reads version 4 (make it again by remapc fit or remapc warp)"
 sed 's/"version": 4/"version": 5/' "$formats/fit.json" >newer.json
 expect_exit 1 "$bin/remapc" show newer.json
 expect_output "this program reads version 4 (use the newer remap that wrote it)"

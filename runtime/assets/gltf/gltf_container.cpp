@@ -129,8 +129,9 @@ std::vector<AssetPiece> with_json(const GltfContainer& container, const std::str
       pieces.push_back({"", chunk.begin, chunk.end});
   const std::uint64_t size = kHeaderSize + kChunkHeaderSize + padded.size() + size_of(pieces);
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(context + ": would have " + std::to_string(size) +
-                       " bytes; a .glb holds less than 4 GiB (convert it as .gltf with a .bin)");
+    throw output_error(
+        context + ": would have " + std::to_string(size) +
+        " bytes; a .glb holds less than 4 GiB (export the asset as .gltf with a .bin, then convert it)");
   pieces.front().bytes = std::string(kMagic) + bytes_of(2) + bytes_of(static_cast<std::uint32_t>(size)) +
                          bytes_of(static_cast<std::uint32_t>(padded.size())) + bytes_of(kJsonChunk) + padded;
   return pieces;

@@ -84,8 +84,9 @@ void GltfNewImages::write(const GltfSpares& spares, TextEdits& edits) {
   if (tail_.appended.empty() && *tail_.kept == 0) tail_.kept = 1;
   const std::uint64_t length = tail_.appended.empty() ? *tail_.kept : chunk_start_ + tail_.appended.size();
   if (length > std::numeric_limits<std::uint32_t>::max())
-    throw output_error(context_ + ": would have a binary chunk of " + std::to_string(length) +
-                       " bytes; a .glb holds less than 4 GiB (convert it as .gltf with a .bin)");
+    throw output_error(
+        context_ + ": would have a binary chunk of " + std::to_string(length) +
+        " bytes; a .glb holds less than 4 GiB (export the asset as .gltf with a .bin, then convert it)");
   edits.replace(buffers_.front()["byteLength"], std::to_string(length));
 }
 

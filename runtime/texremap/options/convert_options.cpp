@@ -121,7 +121,7 @@ Reader<WrittenRoughness> written_roughness() {
             written.white = parse_number(word.substr(sign + 1));
             if (written.encoding != RoughnessEncoding::kExponent || !(written.white.value_or(0.0) > 0.0))
               throw usage_error(option + ": invalid value '" + word +
-                                "' (only exponent has a number, which is above 0: exponent=1000)");
+                                "' (use a number above 0, such as exponent=1000; other encodings have none)");
             return written;
           },
           name.choices};

@@ -57,6 +57,8 @@ class ReportMerger {
 std::vector<Part> ReportMerger::parts_found() const {
   std::vector<Part> parts;
   std::error_code failure;
+  if (!fs::exists(output_, failure))
+    throw input_error(output_.string() + ": does not exist (give the output folder of the parts)");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, failure))
     if (const auto part = part_named(entry.path().stem().string());
         part && part->count <= kMostReports && entry.path().extension() == kPartReport)
