@@ -292,9 +292,9 @@ TEST_CASE("A container of 4 GiB cannot be written", "[assets]") {
   const std::string head = "glTF" + four_bytes(2) + four_bytes(0xfffffff0u) + chunk_bytes(kJsonChunk, json);
   const auto binary = static_cast<std::uint32_t>(0xfffffff0u - head.size() - 8);
   const HugeSource source(head + four_bytes(binary) + four_bytes(kBinaryChunk));
-  CHECK_THROWS_WITH(
-      convert_gltf(source, "a.glb", kExactOptions),
-      Catch::Contains("a.glb: would have 4294967") && Catch::Contains("(convert it as .gltf with a .bin)"));
+  CHECK_THROWS_WITH(convert_gltf(source, "a.glb", kExactOptions),
+                    Catch::Contains("a.glb: would have 4294967") &&
+                        Catch::Contains("(export the asset as .gltf with a .bin, then convert it)"));
 }
 
 namespace {
