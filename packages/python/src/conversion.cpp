@@ -9,6 +9,7 @@
 #include "paths/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
+#include "stages/brdf_stage.hpp"
 
 namespace nb = nanobind;
 
@@ -163,7 +164,9 @@ MaterialConversion MaterialConversion::load(const std::string& path,
   if (const auto* data = std::get_if<ConverterData>(&fit)) {
     built.choice.source_brdf = data->info.source.model;
     built.choice.target_brdf = data->info.target.model;
-    conversion.read_ = std::make_shared<const ConverterList>(read_converters(path));
+    ConverterList list;
+    list.push_back(make_converter(*data));
+    conversion.read_ = std::make_shared<const ConverterList>(std::move(list));
     built = build_conversion(std::move(built.choice), {}, graph_of(*conversion.read_));
   } else if (const auto* warp = std::get_if<WarpMapFit>(&fit)) {
     const WorkflowKind source =

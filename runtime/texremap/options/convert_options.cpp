@@ -543,10 +543,7 @@ void note_given(const Command& command, ConvertOptions& options) {
   constexpr const char* kVariable = "REMAP_INSTRUCTIONS";
   if (const char* name = std::getenv(kVariable))
     options.instructions = instruction_set_from_name(kVariable, name);
-  if (options.written_type) {
-    options.dither = options.written_type == WrittenType::kDithered;
-    options.type = pixel_type_of(*options.written_type);
-  }
+  if (options.written_type) options.type = pixel_type_of(*options.written_type);
   if (options.glossiness) options.maps[Parameter::kRoughness] = options.glossiness;
   for (const auto& [parameter, source] : options.inputs) {
     std::optional<MapSource>& map = options.maps[parameter];

@@ -112,7 +112,7 @@ struct ConvertOptions {
   std::optional<Layout> layout;
   const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
-  std::optional<WrittenType> written_type;  // also in `type` and `dither`
+  std::optional<WrittenType> written_type;  // also in `type`
   std::optional<PixelType> type;
   Compression compression;
   WrittenRoughness output_roughness;
@@ -121,7 +121,6 @@ struct ConvertOptions {
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none
   std::filesystem::path report;    // HTML file; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;
   bool only_converted = false, force = false, dry_run = false;
   bool json = false, quiet = false, verbose = false;
   InstructionSet instructions = best_instruction_set();

@@ -329,7 +329,7 @@ TargetChoice target_choice(const ConvertOptions& options, const ConversionChoice
   choice.treatment = {options.output_roughness.encoding,
                       static_cast<float>(options.output_roughness.white.value_or(1.0)),
                       options.bad_texels,
-                      options.dither,
+                      options.written_type == WrittenType::kDithered,
                       options.json,
                       options.json || !options.quiet};
   choice.folder = options.output;

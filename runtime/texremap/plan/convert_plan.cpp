@@ -240,11 +240,7 @@ void require_asset_options(const ConvertOptions& options) {
   if (options.to.name != "gltf" && options.to.name != "gltf-specgloss")
     throw usage_error("--to " + options.to.name +
                       ": the materials of an asset can become gltf or gltf-specgloss (use --to gltf)");
-  for (const ModelName* model : {&options.from, &options.to})
-    if (model->diffuse)
-      throw usage_error(prefixes_of(*model) + model->name +
-                        ": glTF and MTL files define what diffuse means (remove " +
-                        std::string(diffuse_convention_name(*model->diffuse)) + ":)");
+  refuse_diffuse(options, "glTF and MTL files define what diffuse means (");
   if (options.output.empty()) throw usage_error("--output is required (add -o FOLDER)");
   if (options.to.name != "gltf" && options.extensions != DielectricExtensions::kKept)
     throw usage_error("--extensions: applies to --to gltf only (remove this option)");

@@ -82,16 +82,20 @@ void require_model_of_fit(const std::string& file, const std::string& option, co
                       ", but " + option + " asks for " + asked + " (remove " + option + ")");
 }
 
+void refuse_diffuse(const ConvertOptions& options, const std::string& reason) {
+  for (const ModelName* model : {&options.from, &options.to})
+    if (model->diffuse)
+      throw usage_error(prefixes_of(*model) + model->name + ": " + reason + "remove " +
+                        std::string(diffuse_convention_name(*model->diffuse)) + ":)");
+}
+
 ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
   const std::string warp = options.converters.path().string();
   refuse_with_warp(options, kNotWithWarp, warp);
   require_model_of_fit(warp, "--from", options.from.name, fit.source_model);
   require_model_of_fit(warp, "--to", options.to.name, fit.template_model);
-  for (const ModelName* model : {&options.from, &options.to})
-    if (model->diffuse)
-      throw usage_error(prefixes_of(*model) + model->name + ": maps of the warp " + warp +
-                        " always have plain diffuse (a prefix cannot choose it; remove " +
-                        std::string(diffuse_convention_name(*model->diffuse)) + ":)");
+  refuse_diffuse(options,
+                 "maps of the warp " + warp + " always have plain diffuse (a prefix cannot choose it; ");
   if (options.to.workflow)
     throw usage_error("--to: results of the warp " + warp +
                       " have the specular workflow (remove this option)");

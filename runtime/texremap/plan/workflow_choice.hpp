@@ -24,4 +24,8 @@ ConversionChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFi
 void require_model_of_fit(const std::string& file, const std::string& option, const std::string& asked,
                           const std::string& own);
 
+// Throws kUsage if --from or --to states a diffuse convention. `reason` ends in an open bracket, for the
+// remedy.
+void refuse_diffuse(const ConvertOptions& options, const std::string& reason);
+
 }  // namespace remap
