@@ -6,7 +6,8 @@
 # program that links OpenImageIO takes a quarter of a second of processor time. Every other case is a separate test,
 # with these labels: quick with [needs], which marks a case that may be skipped; slow with [slow]; slow and campaign
 # with [slow][campaign], which takes longer under REMAP_CAMPAIGN=full. Another label of a test is the folder of
-# sources that its file mirrors (tests/compiler/table mirrors compiler/table), or FOLDERS if it mirrors none.
+# sources that its file mirrors (tests/compiler/table mirrors compiler/table), or FOLDERS if it mirrors none. ctest
+# starts slow tests first, by their COST, so that quick ones fill the processors at the end.
 #
 # Names are kept in lists, so semicolons and brackets are replaced as long as they are there.
 cmake_minimum_required(VERSION 3.22)
@@ -27,10 +28,14 @@ set(script "")
 # add(NAME LABELS ARGUMENTS) adds a test of this program. ARGUMENTS is one text, [==[ARGUMENT]==] with spaces between
 # them, because a name may contain semicolons.
 function(add name labels arguments)
+  set(cost 0)
+  if(labels MATCHES "slow")
+    set(cost 10)
+  endif()
   string(APPEND script
     "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] ${arguments})\n"
     "set_tests_properties([==[${NAME}: ${name}]==] PROPERTIES WORKING_DIRECTORY [==[${working_folder}]==] "
-    "SKIP_RETURN_CODE 77 LABELS [==[${labels}]==] ${PROPERTIES})\n")
+    "SKIP_RETURN_CODE 77 COST ${cost} LABELS [==[${labels}]==] ${PROPERTIES})\n")
   set(script "${script}" PARENT_SCOPE)
 endfunction()
 

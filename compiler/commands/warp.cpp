@@ -86,8 +86,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const WarpCommand& com
                          std::to_string(found.target_dimensions) + ")"},
       {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
       {"directions fixed by strokes", std::to_string(found.fixed_directions)},
-      {"used part of the template's appearances", percent(found.coverage)},
-      {"part of the source that the warp folds", percent(found.fold_share)},
+      {"part of the template that is used", percent(found.coverage)},
+      {"part of the source inside folds", percent(found.fold_share)},
       {"distance of strokes after the warp, relative to the template's spread",
        percent(found.stroke_distance)},
       {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}};

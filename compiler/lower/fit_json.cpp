@@ -324,6 +324,8 @@ AnyFit any_fit_from_json(std::string_view text, const std::string& context) {
 }
 
 AnyFit load_any_fit(const std::filesystem::path& path) {
+  if (path.extension() == ".csv")
+    throw Error(ErrorKind::kInput, path.string() + ": is a table, not a fit (remapc fit makes a fit of it)");
   return any_fit_from_json(read_file(path), path.string());
 }
 

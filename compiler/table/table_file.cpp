@@ -39,12 +39,11 @@ std::string sha256(std::string_view bytes) {
 
 Comments parse_metadata(std::string_view json, const std::string& context) {
   const Json root = parse_json(json, context);
-  Field(root, context)
-      .require(root.fields() != nullptr && root.size() <= kMostCsvComments, "an object of texts");
+  const Field fields(root, context);
+  fields.require(root.fields() != nullptr && root.size() <= kMostCsvComments, "an object of texts");
   Comments comments;
   for (const auto& [key, value] : *root.fields())
-    comments.emplace_back(plain(key, kLongestComment),
-                          plain(Field(value, context + "." + key).any_text(), kLongestComment));
+    comments.emplace_back(plain(key, kLongestComment), plain(fields[key].any_text(), kLongestComment));
   return comments;
 }
 

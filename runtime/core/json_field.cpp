@@ -81,13 +81,13 @@ Field Field::operator[](const std::string& key) const {
   require(value_.fields() != nullptr, "an object");
   const Json* found = value_.find(key);
   if (found == nullptr) fail("has no field \"" + key + "\"");
-  return Field(*found, context_ + "." + key);
+  return below(*found, key);
 }
 
 Field Field::at(std::size_t index, std::size_t count) const {
   const Json::List* entries = value_.entries();
   require(entries != nullptr && entries->size() == count, "a list of " + std::to_string(count));
-  return Field((*entries)[index], context_ + "[" + std::to_string(index) + "]");
+  return Field((*entries)[index], context_ + "[" + std::to_string(index) + "]", ".");
 }
 
 std::size_t Field::entry_count(std::size_t fewest, std::size_t most) const {

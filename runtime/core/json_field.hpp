@@ -25,10 +25,12 @@ inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
 // number that a double cannot hold.
 Json parse_json(std::string_view text, const std::string& context);
 
-// A Field is a JSON value with its place, such as `fit.json.domain.alpha`. Every error begins with the place.
+// A Field is a JSON value with its place, such as `fit.json: domain.alpha`. Every error begins with the
+// place.
 class Field {
  public:
-  Field(const Json& value, std::string context) : value_(value), context_(std::move(context)) {}
+  // `context` is the name of the file, of which `value` is the whole content.
+  Field(const Json& value, std::string context) : Field(value, std::move(context), ": ") {}
 
   Field operator[](const std::string& key) const;
   bool contains(std::string_view key) const { return value_.contains(key); }
@@ -66,7 +68,7 @@ class Field {
   template <typename Value, typename Read>
   std::map<std::string, Value> dictionary(Read read) const {
     std::map<std::string, Value> entries;
-    for (const auto& [key, value] : entry_fields()) entries[key] = read(Field(value, context_ + "." + key));
+    for (const auto& [key, value] : entry_fields()) entries[key] = read(below(value, key));
     return entries;
   }
   std::map<std::string, std::string> text_dictionary() const;
@@ -77,9 +79,15 @@ class Field {
  private:
   std::size_t entry_count(std::size_t fewest, std::size_t most) const;
   const Json::Object& entry_fields() const;
+  Field(const Json& value, std::string context, std::string separator)
+      : value_(value), context_(std::move(context)), separator_(std::move(separator)) {}
+  Field below(const Json& value, const std::string& key) const {
+    return Field(value, context_ + separator_ + key, ".");
+  }
 
   const Json& value_;
   std::string context_;
+  std::string separator_;  // between the context and the key of a member
 };
 
 }  // namespace remap

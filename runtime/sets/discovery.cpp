@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "sets/name_pieces.hpp"
+
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
@@ -44,15 +46,25 @@ void choose_readings(std::vector<NamedMap>& maps) {
   }
 }
 
+// Returns the name with a # for each digit at its end: prop_### for prop_127.
+std::string shape_of(std::string name) {
+  for (std::size_t i = name.size(); i > 0 && is_digit(name[i - 1]); --i) name[i - 1] = '#';
+  return name;
+}
+
 // Keeps numbers that distinguish sets. In wood_512_rough and wood_1024_rough, the numbers are not
-// resolutions.
+// resolutions, nor is the number of prop_128_rough beside prop_127_rough.
 void choose_stems(std::vector<NamedMap>& maps) {
+  std::set<std::string> shapes;
+  for (const NamedMap& map : maps) shapes.insert(shape_of(map.stem()));
   std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
   std::set<std::string> numbered;
   for (const NamedMap& map : maps) {
     std::set<std::string>& stems = numbered_stems[{map.stem(), map.reading().meaning}];
     stems.insert(map.reading().numbered_stem);
-    if (stems.size() > 1) numbered.insert(map.stem());
+    const std::string& numbered_stem = map.reading().numbered_stem;
+    const bool is_in_series = numbered_stem != map.stem() && shapes.contains(shape_of(numbered_stem));
+    if (stems.size() > 1 || is_in_series) numbered.insert(map.stem());
   }
   for (NamedMap& map : maps) map.numbered = numbered.contains(map.stem());
 }

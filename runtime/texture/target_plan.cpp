@@ -53,7 +53,8 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
     for (std::size_t k = 0; k < i; ++k)
       if (results[i] == results[k])
         throw Error(ErrorKind::kUsage,
-                    results[i].string() + ": two results have this name (rename an input)");
+                    results[i].string() + ": two results have this name (rename an input" +
+                        (choice.diagnosis_folder.empty() ? ")" : ", or give --diagnose another folder)"));
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedFile& copy : plan.copies) require_safe(results[i], copy.source);
   }

@@ -65,7 +65,7 @@ build_preset() {
 # are only in the log.
 run_tests() {
   # Many tests wait for files and processes, so more of them run than there are processors.
-  local -ri tests_at_once=$((($(nproc) * 3 + 1) / 2))
+  local -ri tests_at_once=$((2 * $(nproc)))
   local -r preset=$1 hidden='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.*( Passed |\*\*\*Skipped ))'
   local -a statuses
   shift

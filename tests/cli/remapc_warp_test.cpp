@@ -112,7 +112,7 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures and warn
   CHECK(pictures == 9);
   CHECK(html.find("http") == std::string::npos);  // the page loads nothing from elsewhere
   CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
-  CHECK(html.find("<td>part of the source that the warp folds</td><td>0 %</td>") != std::string::npos);
+  CHECK(html.find("<td>part of the source inside folds</td><td>0 %</td>") != std::string::npos);
   CHECK(html.ends_with("</html>\n"));
   require_success(run_warp(session, "--box 0,0,20,20 0,0,20,20 --report report.html"));
   CHECK(session.content("report.html").find("class=\"warning\">strokes do not determine direction 1") !=

@@ -134,7 +134,8 @@ TEST_CASE("texremap hostile: of two sets that differ in case alone the second is
   const ProcessResult run = folder.texremap(kOfTree);
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.errors,
-             Contains("would be written twice, from in/Rock_roughness.png and from in/rock_roughness.png"));
+             Contains("would be written twice, from the set of in/Rock_roughness.png and from the set of "
+                      "in/rock_roughness.png"));
   CHECK(folder.results() == std::vector<std::string>{"Rock_roughness.png", "Rock_specular.png",
                                                      "\xc3\x84"
                                                      "bc_roughness.png",

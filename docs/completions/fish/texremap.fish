@@ -7,7 +7,7 @@ complete -c texremap -n __fish_use_subcommand -f -a index -d 'List the texture s
 complete -c texremap -n __fish_use_subcommand -f -a plan -d 'Write the files that run a conversion in parts on a cluster'
 complete -c texremap -n __fish_use_subcommand -f -a merge-reports -d 'Make one report from the reports of all parts of a conversion'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l from -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model of the maps: unity, blender, gltf-specgloss, mitsuba/ward, ..'
-complete -c texremap -n '__fish_seen_subcommand_from convert' -l to -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Where the results go: unity, unreal, blender, ..'
+complete -c texremap -n '__fish_seen_subcommand_from convert' -l to -x -a "(texremap list --models 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\).*/\\1/p')" -d 'Model of the results: gltf, cycles-5, mitsuba/as, ..'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -s r -l recursive -d 'Convert the subfolders of DIR, too'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -l resample -d 'Enlarge smaller maps of a set to the largest size, bilinearly'
 complete -c texremap -n '__fish_seen_subcommand_from convert' -s o -l output -r -F -d 'Folder for the results, which keep the names of the inputs'

@@ -94,7 +94,7 @@ class CoreToSpecGloss final : public GltfDirection {
         throw input_error(
             "has " + plain(name) + ", which " +
             (is_reflecting(name) ? "viewers ignore in" : "is unknown and may have no effect in") +
-            " spec-gloss materials (remove it, or keep the material unchanged)");
+            " spec-gloss materials (remove it from the material)");
     }
   }
 

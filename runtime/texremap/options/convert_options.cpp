@@ -217,8 +217,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->tag(kForAssets);
   command
       .add_option("--to MODEL", options.to, model_name(),
-                  "Where the results go: unity, unreal, blender, ... also packs and names the files as that "
-                  "program expects; gltf, cycles-5, mitsuba/as, ... (texremap list)")
+                  "Model of the results: gltf, cycles-5, mitsuba/as, ... With the name of a program (unity, "
+                  "unreal, blender, ...), files are packed and named as it expects, too (texremap list)")
       ->common()
       ->tag(kForAssets);
   command

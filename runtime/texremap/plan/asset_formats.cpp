@@ -26,10 +26,10 @@ std::optional<AssetKind> kind_of_asset(const fs::path& path) {
   return value_named(kExtensions, extension_of(path));
 }
 
-constexpr const char* kObjRemedy =
-    " becomes a glTF file (use an output name *.glb or *.gltf, or give --format glb; to keep MTL, give the "
-    "MTL "
-    "file instead)";
+std::string obj_text(const fs::path& input, const std::string& remedy) {
+  return display_path(input) + " becomes a glTF file (" + remedy +
+         "; to keep MTL, give the MTL file instead)";
+}
 
 }  // namespace
 
@@ -57,7 +57,7 @@ std::string result_extension(const fs::path& input, const std::string& format) {
   if (!format.empty() && format != "glb" && format != "gltf")
     throw usage_error("--format " + format + ": OBJ files can become glb or gltf (use --format glb)");
   const bool is_obj = kind_of_asset(input) == AssetKind::kObj;
-  if (is_obj && format.empty()) throw usage_error(display_path(input) + kObjRemedy);
+  if (is_obj && format.empty()) throw usage_error(obj_text(input, "use an output name *.glb or *.gltf, or add --format glb"));
   if (!is_obj && !format.empty())
     throw usage_error("--format " + format + ": " + display_path(input) +
                       " keeps its format (remove this option, which is for OBJ files)");
@@ -67,7 +67,8 @@ std::string result_extension(const fs::path& input, const std::string& format) {
 void require_format(const fs::path& input, const fs::path& output) {
   if (kind_of_asset(input) == AssetKind::kObj) {
     if (!is_gltf_name(output))
-      throw usage_error("--output " + output.string() + ": " + display_path(input) + kObjRemedy);
+      throw usage_error("--output " + output.string() + ": " +
+                        obj_text(input, "use an output name *.glb or *.gltf"));
   } else if (extension_of(input) != extension_of(output)) {
     throw usage_error("--output " + output.string() + ": " + display_path(input) +
                       " keeps its format (use an output name *" + extension_of(input) + ")");

@@ -101,7 +101,7 @@ class SetJobs {
   bool comes_along(const FoundMap& map) const;
   bool is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry) const;
   void note_normals();
-  std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
+  std::set<fs::path> outputs(const FoundSet& set) const;
   bool takes_names(const FoundSet& set);
   void note_sizes(Job& job) const;
   void require_encoding_used() const;
@@ -123,7 +123,9 @@ class SetJobs {
   bool has_given_width(const FoundSet& set) const;
   void fail(const std::string& message) { jobs_.skipped.push_back({message, true}); }
   std::string context(const FoundSet& set) const { return display_path(root_ / set.folder / set.name); }
-  std::string owner(const FoundSet& set) const { return display_path(root_ / set.maps.front().path); }
+  std::string owner(const FoundSet& set) const {
+    return "the set of " + display_path(root_ / set.maps.front().path);
+  }
 
   const ConvertOptions& options_;
   const ConversionChoice& workflow_;
@@ -229,9 +231,9 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(context(set) + ": has base color and metallic, but " + workflow_.source_brdf +
-                    " does not use them: its specular is not the specular of the material (--from metallic "
-                    "converts the whole material)");
+    notes.push_back(context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+                    " does not read, so metals get a wrong specular (--from metallic converts the whole "
+                    "material)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -424,15 +426,14 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
 }
 
-// Returns the files that the conversion of a set writes, each with one of its source maps. All tiles of a map
-// are one entry.
-std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
+// Returns the files that the conversion of a set writes. All tiles of a map are one entry.
+std::set<fs::path> SetJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
   const std::string end =
       (tiles_of(set).front() == 0 ? "" : ".<UDIM>") +
       (choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension);
   const ResultNames names{set.name, end};
-  std::map<fs::path, fs::path> sources;
+  std::set<fs::path> files;
   TargetChoice choice = choice_;
   if (workflow_.translation) {
     TextureSetRequest request = defaults_;
@@ -442,17 +443,16 @@ std::map<fs::path, fs::path> SetJobs::outputs(const FoundSet& set) const {
   }
   for (const Parameter parameter : choice.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
-    const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
     fs::path path = set.folder / file_name(parameter, choice_, names);
     if (choice_.layout.keeps_names && !found.empty()) {
-      path = source;
+      path = set.maps[found.front().map].path;
       if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
     }
-    sources.emplace(options_.output / path, source);
+    files.insert(options_.output / path);
   }
   for (const TargetChannel& diagnosis : choice_.diagnoses)
-    sources.emplace(options_.diagnose / set.folder / diagnosis_name(diagnosis, names), first.path);
-  return sources;
+    files.insert(options_.diagnose / set.folder / diagnosis_name(diagnosis, names));
+  return files;
 }
 
 void SetJobs::note_sizes(Job& job) const {
@@ -474,17 +474,16 @@ void SetJobs::require_encoding_used() const {
 // Reserves the names of a set's results, and of copies of its maps. If another set has one of these names,
 // adds a message and returns false.
 bool SetJobs::takes_names(const FoundSet& set) {
-  const auto take = [&](const fs::path& path, const fs::path& source) {
+  const auto take = [&](const fs::path& path) {
     const std::string other = jobs_.names->take(path, owner(set));
-    if (!other.empty()) fail(written_twice_text(path, other, display_path(root_ / source)));
+    if (!other.empty()) fail(written_twice_text(path, other, owner(set)));
     return other.empty();
   };
-  for (const auto& [path, source] : outputs(set))
-    if (!take(path, source)) return false;
+  if (!std::ranges::all_of(outputs(set), take)) return false;
   for (const FoundMap& map : set.maps)
     if (comes_along(map))
       for (const fs::path& file : files_of(map))
-        if (!take(options_.output / file, file)) return false;
+        if (!take(options_.output / file)) return false;
   return true;
 }
 

@@ -32,6 +32,9 @@ std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std
 // lower edge of tiled images.
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
+// Returns nothing for types that images cannot have here.
+std::optional<PixelType> pixel_type(OIIO::TypeDesc type);
+
 // layout_of() throws kInput if the type of a channel is not supported. has_compression_level() returns true
 // for PNG, and for zip in EXR and TIFF.
 bool has_compression_level(const OIIO::ImageSpec& spec, const std::string& format);

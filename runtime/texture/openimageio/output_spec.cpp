@@ -21,7 +21,6 @@ constexpr std::array kPixelSummaries = {"oiio:SHA-1", "oiio:ConstantColor", "oii
 
 std::string name_of(PixelType type) { return std::string(name_of(kPixelTypes, type)); }
 OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(name_of(type)); }
-PixelType pixel_type(OIIO::TypeDesc type) { return value_named(kPixelTypes, type.c_str()).value(); }
 
 // Returns the type in which `format` holds values of `type` with the smallest loss. Returns nothing for
 // unsupported types. OpenImageIO would choose 8 bits even if the format has 16.
@@ -176,7 +175,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
 
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
-  const PixelType type = changes.type.value_or(pixel_type(spec.format));
+  const PixelType type = changes.type ? *changes.type : pixel_type(spec.format).value();
   // Few programs read half floats in TIFF, so the new file has them only if the model has.
   const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
   const std::optional<PixelType> stored =
@@ -188,7 +187,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
   const bool follows = format == model_format && !changes.channels &&
-                       (is_mixed || is_integer(pixel_type(model.format)) == is_integer(*stored));
+                       (is_mixed || is_integer(pixel_type(model.format).value()) == is_integer(*stored));
   Metadata metadata = changes.metadata;
   tag_colors(spec, format, *stored, follows, changes, metadata);
   if (format != model_format) leave_coding_behind(spec, output);

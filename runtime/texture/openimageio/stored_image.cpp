@@ -55,11 +55,11 @@ std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
   return is_linear ? Transfer::kLinear : Transfer::kSrgb;
 }
 
+}  // namespace
+
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
   return type.is_array() ? std::nullopt : value_named(kPixelTypes, type.c_str());
 }
-
-}  // namespace
 
 std::string first_line(const std::string& text, const std::string& otherwise) {
   const std::string line = text.substr(0, text.find('\n'));

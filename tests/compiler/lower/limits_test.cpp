@@ -88,10 +88,10 @@ TEST_CASE("limits: remarks and other lines of a fit file") {
     return std::string();
   };
   fit.remarks = {std::string(10'001, 'x')};
-  CHECK(message() == "x.json.remarks[0]: has a text of 10001 bytes, but at most 10000 can be read");
+  CHECK(message() == "x.json: remarks[0]: has a text of 10001 bytes, but at most 10000 can be read");
   fit.remarks.assign(1001, "x");
-  CHECK(message() == "x.json.remarks: has 1001 entries, but at most 1000 can be read");
+  CHECK(message() == "x.json: remarks: has 1001 entries, but at most 1000 can be read");
   fit = example_fit();
   for (int i = 0; i <= 1000; ++i) fit.method[std::to_string(i)] = "x";
-  CHECK(message() == "x.json.method: has 1001 entries, but at most 1000 can be read");
+  CHECK(message() == "x.json: method: has 1001 entries, but at most 1000 can be read");
 }

@@ -148,7 +148,7 @@ TEST_CASE("table: a file is plain CSV; how it was made is beside it, and read ba
   CHECK_NOTHROW(require_new_table(path, true));
   CHECK_THROWS_WITH(parse_metadata("[1]", "t.csv.json"),
                     Catch::Contains("t.csv.json: expected an object of texts"));
-  CHECK_THROWS_WITH(parse_metadata("{\"a\": 1}", "t.csv.json"), Catch::Contains("t.csv.json.a: expected"));
+  CHECK_THROWS_WITH(parse_metadata("{\"a\": 1}", "t.csv.json"), Catch::Contains("t.csv.json: a: expected"));
 }
 
 TEST_CASE("table: a row of another length is reported") {

@@ -152,7 +152,7 @@ TEST_CASE("JSON field: texts and names of fields hold no control characters") {
     const auto json = parse_json("{\"text\": \"" + bad + "\", \"map\": {\"" + bad + "\": \"x\"}}", "x.json");
     const Field field(json, "x.json");
     CHECK_THROWS_WITH(field["text"].text(),
-                      Catch::Contains("x.json.text: expected a text of one line without "
+                      Catch::Contains("x.json: text: expected a text of one line without "
                                       "control characters, found "));
     CHECK_THROWS_WITH(field["map"].text_dictionary(), Catch::Contains("found the name \"a\\"));
   }

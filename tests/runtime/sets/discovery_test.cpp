@@ -141,6 +141,11 @@ TEST_CASE("find sets: a number before the word is a resolution, unless it distin
   const SetSession apart{"wood_128_rough.png", "wood_256_rough.png", "wood_256_spec.png",
                          "wood_300_rough.png"};
   CHECK(set_paths(apart.find()) == std::vector<std::string>{"wood_128", "wood_256", "wood_300"});
+  const SetSession series{"prop_127_rough.png", "prop_128_rough.png", "prop_128_spec.png",
+                          "prop_129_rough.png"};
+  CHECK(set_paths(series.find()) == std::vector<std::string>{"prop_127", "prop_128", "prop_129"});
+  const SetSession two{"wood_1024_rough.png", "wood_1024_spec.png", "wood_2_rough.png"};
+  CHECK(set_paths(two.find()) == std::vector<std::string>{"wood", "wood_2"});
 }
 
 TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {

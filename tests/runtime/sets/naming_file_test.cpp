@@ -57,31 +57,31 @@ TEST_CASE("naming file: errors name the field and the expected value") {
   CHECK(complaint("[") != "none");
   CHECK(complaint("[]") == "names.json: expected an object, found []");
   CHECK(complaint("{}") == "names.json: has no field \"habits\"");
-  CHECK(complaint(R"({"habits": []})") == "names.json.habits: expected a list of at least 1 entry, found []");
+  CHECK(complaint(R"({"habits": []})") == "names.json: habits: expected a list of at least 1 entry, found []");
   CHECK(complaint(R"({"habit": []})") == "names.json: unknown field 'habit' (did you mean habits?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "role": "rougness"})")) ==
-        "names.json.habits[0].rules[0].role: unknown role 'rougness' (did you mean roughness?)");
+        "names.json: habits[0].rules[0].role: unknown role 'rougness' (did you mean roughness?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"X": "roughness"}})"))
             .find("channels: unknown field 'X'") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": [], "role": "roughness"})")) ==
-        "names.json.habits[0].rules[0].words: expected a list of at least 1 entry, found []");
+        "names.json: habits[0].rules[0].words: expected a list of at least 1 entry, found []");
   CHECK(complaint(with_rule(R"({"words": ["_"], "role": "roughness"})")) ==
-        "names.json.habits[0].rules[0].words[0]: expected a word, found \"_\"");
+        "names.json: habits[0].rules[0].words[0]: expected a word, found \"_\"");
   CHECK(complaint(with_rule(R"({"words": ["4K"], "role": "roughness"})")).find("neither a resolution") !=
         std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["PNG"], "role": "roughness"})")).find("nor a format") !=
         std::string::npos);
   CHECK(complaint(R"({"habits": [{"name": "", "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].name: expected a name, found \"\"");
+        "names.json: habits[0].name: expected a name, found \"\"");
   CHECK(complaint(
             R"({"habits": [{"name": "x", "resolution": "aftr",
       "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].resolution: unknown place of a resolution 'aftr' (did you mean after?)");
+        "names.json: habits[0].resolution: unknown place of a resolution 'aftr' (did you mean after?)");
   CHECK(complaint(R"({"habits": [{"name": "x", "camel_case": 1,
                              "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].camel_case: expected true or false, found 1");
+        "names.json: habits[0].camel_case: expected true or false, found 1");
   CHECK(complaint(with_rule(R"({"words": ["a"], "ordinary": "no", "role": "ior"})")) ==
-        "names.json.habits[0].rules[0].ordinary: expected true or false, found \"no\"");
+        "names.json: habits[0].rules[0].ordinary: expected true or false, found \"no\"");
 }
 
 TEST_CASE("naming file: a longer word of the built-in habits wins over its words") {
@@ -102,7 +102,7 @@ TEST_CASE("naming file: rules that contradict themselves are refused") {
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"R": "specular", "G": "specular"}})"))
             .find("expected specular at most once") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a_b"], "role": "ior"}, {"words": ["A-B"], "role": "height"})")) ==
-        "names.json.habits[0]: two rules for the word 'ab' (keep one)");
+        "names.json: habits[0]: two rules for the word 'ab' (keep one)");
   CHECK(complaint(with_rule(R"({"words": ["a_b", "aB"], "role": "ior"})")) == "none");
 }
 

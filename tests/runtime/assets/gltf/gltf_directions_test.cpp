@@ -188,11 +188,11 @@ TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
         .failure;
   };
   CHECK(failures(R"("KHR_materials_clearcoat":{})") ==
-        "has KHR_materials_clearcoat, which viewers ignore in spec-gloss materials (remove it, or keep the "
-        "material unchanged)");
+        "has KHR_materials_clearcoat, which viewers ignore in spec-gloss materials (remove it from the "
+        "material)");
   CHECK(failures(R"("ACME_fur":{})") ==
-        "has ACME_fur, which is unknown and may have no effect in spec-gloss materials (remove it, "
-        "or keep the material unchanged)");
+        "has ACME_fur, which is unknown and may have no effect in spec-gloss materials (remove it "
+        "from the material)");
   CHECK(failures(R"("KHR_materials_ior":{"ior":0.5})") == "ior 0.5: expected 0, or a number of at least 1");
   CHECK(failures(R"("KHR_materials_emissive_strength":{})").empty());
   const std::string text = file_with(
