@@ -13,6 +13,7 @@
 #include "table/csv.hpp"
 #include "texture/image_reader.hpp"
 #include "warp/image_texels.hpp"
+#include "warp/quadrature.hpp"
 
 namespace remap {
 namespace {

@@ -22,8 +22,4 @@ bool is_tabulated_folder(const std::filesystem::path& folder);
 // or channels. Also throws it for radii that differ between channels, and negative or infinite values.
 TabulatedMaterial read_tabulated_set(const std::filesystem::path& folder);
 
-// Returns the reflectance of a MERL file at the directions of half_vector_quadrature(), channel by channel.
-// Cells that were not measured are 0. Throws kInput.
-std::vector<float> read_merl(const std::filesystem::path& file);
-
 }  // namespace remap

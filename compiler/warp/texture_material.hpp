@@ -1,7 +1,10 @@
-// This file reads texture sets as materials of a warp.
+// This file reads texture sets as materials of a warp, and writes the exact copy of a warp to files. In it,
+// each source texel is a copy of one template texel.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <vector>
 
 #include "warp/material.hpp"
 
@@ -19,5 +22,21 @@ enum class AlbedoAlone {
 // kInput for missing and ambiguous maps, and kUsage for a model that the built-in renderer does not have.
 WarpMaterial read_texture_material(const std::filesystem::path& folder, const std::string& model,
                                    AlbedoAlone albedo = AlbedoAlone::kRefuse);
+
+// These are the names of files of all kinds.
+inline constexpr std::array<const char*, 8> kCopyNames = {"diffuse.exr",  "specular.exr",      "alpha.exr",
+                                                          "profiles.exr", "index.exr",         "profiles.csv",
+                                                          "brdfs.txt",    "template_texel.exr"};
+
+// Writes float32 EXR files of the source's size to `folder`, with NaN in skipped texels:
+//   parameters         diffuse.exr, specular.exr, alpha.exr
+//   a list             index.exr and the list (profiles.csv, or brdfs.txt with adapted paths)
+//   profiles.exr       profiles.exr
+//   all kinds          template_texel.exr: channels X and Y, the position in the template from 0 at the top
+//                      left, by which other maps can be copied
+// `texels` is the result of copy_exactly(). Returns the files. Throws kOutput.
+std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
+                                                    const std::vector<std::uint32_t>& texels,
+                                                    const MaterialRef& source, const MaterialRef& goal);
 
 }  // namespace remap
