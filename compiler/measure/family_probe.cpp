@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
-#include "measure/picture_sums.hpp"
+#include "measure/objective.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/polynomial.hpp"
 #include "measure/probe.hpp"
+#include "measure/specular_response.hpp"
 
 namespace remap {
 namespace {

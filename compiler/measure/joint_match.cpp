@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "measure/function_cost.hpp"
-#include "measure/picture_sums.hpp"
+#include "measure/objective.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

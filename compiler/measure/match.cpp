@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "measure/picture_sums.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/objective.hpp"
+#include "measure/target_pictures.hpp"
 
 namespace remap {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "measure/polynomial.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/specular_response.hpp"
+#include "measure/target_pictures.hpp"
 #include "table/table.hpp"
 
 namespace remap {

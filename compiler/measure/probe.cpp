@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/number_text.hpp"
-#include "measure/picture_sums.hpp"
+#include "measure/objective.hpp"
 #include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
 

@@ -14,7 +14,7 @@
 #include "measure/joint_match.hpp"
 #include "measure/picture_taker.hpp"
 #include "measure/provenance.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/target_pictures.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "table/domain.hpp"

@@ -13,7 +13,7 @@
 #include "measure/joint_match.hpp"
 #include "measure/material_sample.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/polynomial.hpp"
+#include "measure/specular_response.hpp"
 #include "measure/target_pictures.hpp"
 
 using namespace remap;

@@ -1,4 +1,4 @@
-#include "measure/parameter_roles.hpp"
+#include "measure/sweep_options.hpp"
 
 #include <algorithm>
 #include <set>
