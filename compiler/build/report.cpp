@@ -8,7 +8,7 @@
 #include "build/trust.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -13,7 +13,7 @@
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/report_text.hpp"
 #include "fit/baselines.hpp"
 #include "report/fit_plot.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

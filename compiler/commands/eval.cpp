@@ -13,7 +13,7 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "lower/interpreter.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -26,7 +26,7 @@
 #include "report/fit_plot.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

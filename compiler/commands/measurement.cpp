@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 namespace {

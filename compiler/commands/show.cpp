@@ -17,7 +17,7 @@
 #include "remap/error.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

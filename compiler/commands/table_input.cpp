@@ -5,7 +5,7 @@
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "core/files.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 

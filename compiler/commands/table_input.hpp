@@ -4,7 +4,7 @@
 #include <string>
 
 #include "command_line/command.hpp"
-#include "table/material_table.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 

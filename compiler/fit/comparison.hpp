@@ -6,7 +6,6 @@
 
 #include "lights/pair_pictures.hpp"
 #include "table/regression.hpp"
-#include "table/split.hpp"
 
 namespace remap {
 

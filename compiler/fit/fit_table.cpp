@@ -13,7 +13,7 @@
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/sweep.hpp"
-#include "table/material_table.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 

@@ -11,7 +11,7 @@
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

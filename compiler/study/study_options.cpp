@@ -9,7 +9,7 @@
 #include "core/number_text.hpp"
 #include "look/image.hpp"
 #include "remap/error.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 

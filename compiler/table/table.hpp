@@ -1,15 +1,18 @@
 // This file holds the table of a sweep, which has the target's parameters for each sample of the source.
-// Sweeps write it and fits read it, as a CSV file with comments that record how it was made.
+// Sweeps write it and fits read it, as a CSV file with comments that record how it was made. A table of more
+// parameters than width and specular has a column for each parameter and channel, named as the models name
+// them (Sztrajman et al. 2019, section 5.2: random samples; section 8).
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "lower/fit.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 
@@ -66,7 +69,7 @@ RowStatus status_at(const TableRow& row, const Limits& limits);
 // comment that is not a number above 0.
 void find_limits(Table* table);
 
-// These comments identify a table of named parameters (material_table.hpp): the columns of each side,
+// These comments identify a table of named parameters (MaterialTable): the columns of each side,
 // separated by commas.
 inline constexpr const char* kSourceColumnsComment = "source_columns";
 inline constexpr const char* kTargetColumnsComment = "target_columns";
@@ -118,5 +121,34 @@ std::string table_text(const Table& table);
 
 // Returns what a fit records about its table. `bytes` is the content of the table's file.
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
+
+struct NamedRow {
+  std::vector<double> source, target;  // one value for each column, in the parameters' own units
+  double error = 0.0;                  // image error of the match over all channels, relative RMS
+  RowStatus status = RowStatus::kOk;
+  std::size_t line = 0;  // in the file it was read from, 1-based; 0 for a new row
+};
+
+struct MaterialTable {
+  std::string name;                                         // file name, for messages
+  Comments comments;                                        // without the two comments that list columns
+  std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
+  std::vector<NamedRow> rows;
+  std::vector<std::string> remarks = {};  // what the parser assumed, for the user
+};
+
+// Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
+MaterialTable parse_material_table(std::string_view text, const std::string& name);
+
+std::string material_table_text(const MaterialTable& table);
+
+// An AnyTable is a table of alpha and specular (remapc sweep), or of named parameters (remapc sample).
+using AnyTable = std::variant<Table, MaterialTable>;
+
+// Makes a table from CSV text in the form that its comments declare. With a comment source_columns, it is a
+// MaterialTable. `map` applies only to a Table. Throws like parse_table() and parse_material_table().
+AnyTable any_table(const Csv& csv, const ColumnMap& map);
+// Parses text and then calls any_table().
+AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 }  // namespace remap

@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "remap/version.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
 namespace remap {

@@ -7,7 +7,7 @@
 
 #include "fit/network/network_training.hpp"
 #include "lower/workflow_fit.hpp"
-#include "table/material_table.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 

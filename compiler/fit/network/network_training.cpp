@@ -14,7 +14,7 @@
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "fit/network/network_optimisers.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -19,7 +19,7 @@
 #include "support/campaign.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 

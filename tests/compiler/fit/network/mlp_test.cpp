@@ -14,7 +14,7 @@
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
 using namespace remap;

@@ -21,7 +21,7 @@
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 
