@@ -6,7 +6,7 @@
 #include "build/report.hpp"
 #include "build/trust.hpp"
 #include "core/number_text.hpp"
-#include "lower/inverse.hpp"
+#include "lower/chain.hpp"
 
 namespace remap {
 namespace {

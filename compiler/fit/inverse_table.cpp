@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lower/chain.hpp"
 #include "lower/interpreter.hpp"
-#include "lower/inverse.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

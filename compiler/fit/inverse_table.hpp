@@ -9,7 +9,7 @@
 namespace remap {
 
 // Samples the target parameters of `fit` and finds the source parameters that `fit` converts to them
-// (lower/inverse.hpp). The target of `fit` becomes the source of the table. `alpha_count` alphas cover the
+// (lower/chain.hpp). The target of `fit` becomes the source of the table. `alpha_count` alphas cover the
 // range that `fit` reaches at its least specular sample. `specular_count` speculars go up to the largest that
 // `fit` reaches at every alpha. If no source parameters in the domain give a row's target, the row is
 // clamped. It is flat if even specular 0 gives more. `bytes` is the fit file, whose SHA-256 is recorded.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <vector>
 
 #include "core/number_text.hpp"
-#include "lower/covered_box.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
@@ -14,6 +15,8 @@
 
 namespace remap {
 namespace {
+
+constexpr double kSpecularWeight = 0.25;
 
 constexpr int kAlphas = 401, kSpeculars = 64;  // size of the grid that finds the domain
 constexpr int kCoarse = 25;                    // size of the grid on which errors are propagated
@@ -204,7 +207,53 @@ double step_by_step(const std::vector<Fit>& steps, double alpha, std::array<doub
   return to_alpha(steps.back().target.roughness, own);
 }
 
+constexpr double kSameEnd = 1e-12;  // tolerance for a range's end, relative to its value
+constexpr int kHalvings = 60;
+
+// Returns the argument within `range` at which a rising function takes `value`, if there is one.
+std::optional<double> root(const std::function<double(double)>& rising, const Range& range, double value) {
+  const double room = kSameEnd * std::fabs(value);
+  double low = range.min, high = range.max;
+  if (!(rising(low) <= value + room) || !(rising(high) >= value - room)) return std::nullopt;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (rising(middle) < value ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+constexpr int kReturnedAlphas = 60, kReturnedSpeculars = 20;
+constexpr double kMedianGoal = 0.005, kP99Goal = 0.02;
+
+// Returns the quantile, by the closest rank.
+double quantile(std::vector<double>* values, double share) {
+  if (values->empty()) return 0.0;
+  const double last = static_cast<double>(values->size());
+  const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(share * last)));
+  std::sort(values->begin(), values->end());
+  return (*values)[rank - 1];
+}
+
 }  // namespace
+
+std::optional<Domain> covered_box(const std::vector<CoveredColumn>& columns) {
+  std::optional<Domain> best;
+  double best_score = -1.0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].is_gap) continue;
+    double reach = INFINITY;
+    for (std::size_t j = i; j < columns.size(); ++j) {
+      if (columns[j].is_gap) continue;
+      reach = std::min(reach, columns[j].reach);
+      if (!(reach > 0.0)) break;
+      const double score = (columns[j].last - columns[i].first) * std::pow(reach, kSpecularWeight);
+      if (!(score > best_score)) continue;
+      best_score = score;
+      best = Domain{{columns[i].first, columns[j].last}, {0.0, reach}};
+    }
+  }
+  return best;
+}
 
 Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   require_links(steps);
@@ -251,6 +300,56 @@ ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& 
       }
     }
   return difference;
+}
+
+std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
+  const MappingKind& mapping = fit.mapping;
+  const Domain& domain = fit.domain;
+  // Returns the specular that is needed at an alpha, clamped to the domain. The last test below rejects
+  // clamped values.
+  const auto specular_at = [&](double alpha) {
+    const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
+    if (rising(domain.specular.min) >= target.specular) return domain.specular.min;
+    return root(rising, domain.specular, target.specular).value_or(domain.specular.max);
+  };
+  const auto rising = [&](double alpha) {
+    return evaluate_mapping(mapping, alpha, specular_at(alpha)).alpha;
+  };
+  const std::optional<double> alpha = root(rising, domain.alpha, target.alpha);
+  if (!alpha) return std::nullopt;
+  const double specular = specular_at(*alpha);
+  const double reached = evaluate_mapping(mapping, *alpha, specular).specular;
+  if (!(std::fabs(reached - target.specular) <= 1e-9 * domain.specular.max)) return std::nullopt;
+  return MappedTexel{*alpha, specular};
+}
+
+RoundTrip round_trip(const Fit& there, const Fit& back) {
+  std::vector<double> alphas, speculars;
+  for (int i = 0; i < kReturnedAlphas; ++i)
+    for (int j = 1; j <= kReturnedSpeculars; ++j) {
+      const Range& range = there.domain.alpha;
+      const double alpha = range.min + (range.max - range.min) * i / (kReturnedAlphas - 1);
+      const double specular = there.domain.specular.max * j / kReturnedSpeculars;
+      const MappedTexel far = evaluate_fit(there, alpha, specular);
+      if (!is_inside(there, alpha, specular) || !back.domain.alpha.contains(far.alpha) ||
+          !back.domain.specular.contains(far.specular) || !is_inside(back, far.alpha, far.specular))
+        continue;
+      const MappedTexel home = evaluate_fit(back, far.alpha, far.specular);
+      alphas.push_back(std::fabs(home.alpha - alpha) / alpha);
+      speculars.push_back(std::fabs(home.specular - specular) / specular);
+    }
+  RoundTrip trip;
+  trip.share = static_cast<double>(alphas.size()) / (kReturnedAlphas * kReturnedSpeculars);
+  trip.alpha_median = quantile(&alphas, 0.5);
+  trip.alpha_p99 = quantile(&alphas, 0.99);
+  trip.specular_median = quantile(&speculars, 0.5);
+  trip.specular_p99 = quantile(&speculars, 0.99);
+  return trip;
+}
+
+bool returns(const RoundTrip& trip) {
+  return trip.share > 0.0 && trip.alpha_median <= kMedianGoal && trip.specular_median <= kMedianGoal &&
+         trip.alpha_p99 <= kP99Goal && trip.specular_p99 <= kP99Goal;
 }
 
 }  // namespace remap

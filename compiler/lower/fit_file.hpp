@@ -1,19 +1,48 @@
-// This file reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes
-// everywhere.
+// This file holds fits of whole materials, and reads and writes the files of fits of every type (JSON).
+// Numbers round-trip exactly, and equal fits give equal bytes everywhere.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "lower/fit.hpp"
-#include "lower/workflow_fit.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
 #include "stages/warp_json.hpp"
 
 namespace remap {
+
+// A NetworkTraining records how a network was trained. Errors are over the held-out rows.
+struct NetworkTraining {
+  std::map<std::string, std::string> method;  // shape, optimisers, starts
+  ErrorFigures base_color;                    // over all channels, linear
+  ErrorFigures metallic;
+  Split split;
+  TableRecord table;
+  bool operator==(const NetworkTraining&) const = default;
+};
+
+// A WorkflowFit is of kind `workflow`, or `mlp` if the formula is a network.
+struct WorkflowFit {
+  std::string id;
+  WorkflowConversion conversion;
+  std::optional<NetworkTraining> training;  // set for a network
+  std::vector<std::string> remarks;         // lines of the model card (remapc show)
+  std::string tool_version;
+  bool operator==(const WorkflowFit&) const = default;
+};
+
+inline constexpr const char* kWorkflowKind = "workflow";
+
+inline const char* material_kind(const WorkflowFit& fit) {
+  return is_learned(fit.conversion.formula) ? "mlp" : kWorkflowKind;
+}
 
 // An AnyFit is a fit of any type that a file can contain.
 using AnyFit = std::variant<Fit, WorkflowFit, WarpMapFit>;

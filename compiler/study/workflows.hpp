@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/workflow_fit.hpp"
+#include "lower/fit_file.hpp"
 #include "reference/workflow_conversion.hpp"
 #include "study/lit_reflectances.hpp"
 

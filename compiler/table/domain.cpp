@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/number_text.hpp"
-#include "lower/covered_box.hpp"
+#include "lower/chain.hpp"
 #include "remap/error.hpp"
 
 namespace remap {

@@ -6,7 +6,7 @@
 namespace remap {
 
 // Returns the box with alpha1 in a range and specular1 from 0 to a bound. In this box, every width has usable
-// rows up to the bound, and no other row is clamped. covered_box.hpp chooses among such boxes. Rows of other
+// rows up to the bound, and no other row is clamped. covered_box() chooses among such boxes. Rows of other
 // statuses are gaps, which do not limit the box. Throws kInput if there is no such box.
 Domain table_domain(const Table& table);
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fit/network/network_training.hpp"
-#include "lower/workflow_fit.hpp"
+#include "lower/fit_file.hpp"
 #include "table/table.hpp"
 
 namespace remap {
