@@ -16,7 +16,6 @@
 #include "core/stopwatch.hpp"
 #include "emit/emit.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/inverse_table.hpp"
 #include "fit/network/material_network.hpp"
 #include "lower/chain.hpp"
 #include "lower/fit_file.hpp"

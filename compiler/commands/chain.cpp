@@ -9,7 +9,6 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/inverse_table.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"

@@ -1,6 +1,6 @@
 // This file fits a table. It splits the rows, fits them by one of the kinds, computes errors on the held-out
 // rows, and records how the fit was made. Each kind has a folder with its regression, and one line in
-// fit_kind().
+// fit_kind(). It also makes the table of the inverse of a fit, which can be fitted like any other table.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct FitOptions {
   std::uint64_t seed = 1;  // seed of the split and of the regression
   unsigned jobs = 0;       // threads; 0: one per core. Results do not depend on it
   std::string form;        // form of the parametric kind; if empty, the paper's
-  MlpOptions mlp;          // its seed and jobs are replaced by those above
+  TrainingOptions mlp;     // its seed and jobs are replaced by those above
   double held_out_fraction = 0.2;
   bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
 };
@@ -43,5 +43,14 @@ Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, con
 // their fits (compare_forms).
 Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
               const FitProgress& progress = {}, std::vector<Fit>* compared = nullptr);
+
+// Samples the target parameters of `fit` and finds the source parameters that `fit` converts to them
+// (lower/chain.hpp). The target of `fit` becomes the source of the table. `alpha_count` alphas cover the
+// range that `fit` reaches at its least specular sample. `specular_count` speculars go up to the largest that
+// `fit` reaches at every alpha. If no source parameters in the domain give a row's target, the row is
+// clamped. It is flat if even specular 0 gives more. `bytes` is the fit file, whose SHA-256 is recorded.
+// Errors are NaN, because no pictures are compared.
+Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_count = 48,
+                    std::size_t specular_count = 10);
 
 }  // namespace remap

@@ -37,7 +37,7 @@ std::string hidden_text(const std::vector<std::size_t>& hidden) {
 
 }  // namespace
 
-Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
+Regression fit_mlp(const std::vector<TableRow>& rows, const TrainingOptions& options,
                    const FitProgress& progress) {
   require_variety(rows, "mlp");
   const Samples alpha_samples = samples_of(rows, alpha_needs_specular(rows), &TableRow::alpha2);

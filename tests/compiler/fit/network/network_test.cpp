@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fit/network/network_batch.hpp"
+#include "fit/network/network_optimisers.hpp"
 #include "fit/network/network_training.hpp"
 #include "lower/evaluate.hpp"
 #include "support/build_speed.hpp"
