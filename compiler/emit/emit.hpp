@@ -19,9 +19,7 @@ std::string emit_header(const Fit& fit);
 std::string emit_header(const WorkflowFit& fit);
 std::string emit_header(const WarpMapFit& fit);
 
-// An EmittedFile is made from all fits together, sorted by id. `converters.json` is the data for texremap.
-// The converters between built-in models, and from exponents, are written in each language
-// (`languages/converters.h`, ...). Throws kNumeric for a fit without a converter.
+// An EmittedFile is made from all fits together.
 struct EmittedFile {
   std::string name;  // path within the folder of headers
   std::string text;
