@@ -8,7 +8,7 @@
 #include <set>
 
 #include "build/fit_folder.hpp"
-#include "build/lock.hpp"
+#include "build/freshness.hpp"
 #include "build/report.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"

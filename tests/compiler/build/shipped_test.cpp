@@ -10,7 +10,6 @@
 #include "build/build.hpp"
 #include "build/fit_folder.hpp"
 #include "build/report.hpp"
-#include "build/trust.hpp"
 #include "core/files.hpp"
 #include "fit/fit_table.hpp"
 #include "lower/chain.hpp"
