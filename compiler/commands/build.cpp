@@ -12,7 +12,7 @@
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/error.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {

@@ -7,7 +7,6 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "core/json.hpp"

@@ -4,7 +4,6 @@
 
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "table/csv.hpp"
 
 namespace remap {

@@ -12,7 +12,6 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/share_progress.hpp"
-#include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"

@@ -7,7 +7,6 @@
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"

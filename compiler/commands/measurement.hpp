@@ -14,7 +14,7 @@
 #include "measure/sweep_options.hpp"
 #include "table/light.hpp"
 #include "table/table.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 

@@ -21,7 +21,7 @@
 #include "look/image.hpp"
 #include "report/set_preview.hpp"
 #include "texremap/plan/asset_formats.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {

@@ -7,7 +7,6 @@
 #include "core/json.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
-#include "worker/renderer_options.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remap {

@@ -15,7 +15,7 @@
 #include "look/material_looks.hpp"
 #include "lower/fit.hpp"
 #include "renderer/renderer.hpp"
-#include "report/sheet_labels.hpp"
+#include "report/contact_sheet.hpp"
 
 namespace remap {
 

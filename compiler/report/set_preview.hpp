@@ -10,7 +10,7 @@
 #include "look/environment.hpp"
 #include "look/image.hpp"
 #include "look/material_looks.hpp"
-#include "report/sheet_labels.hpp"
+#include "report/contact_sheet.hpp"
 #include "texremap/plan/convert_plan.hpp"
 #include "worker/renderer_set.hpp"
 

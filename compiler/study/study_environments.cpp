@@ -5,7 +5,6 @@
 #include "build/fit_folder.hpp"
 #include "remap/error.hpp"
 #include "study/environments.hpp"
-#include "study/studies.hpp"
 #include "study/study_options.hpp"
 
 namespace remap {

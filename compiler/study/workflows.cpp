@@ -13,7 +13,6 @@
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/sheet_labels.hpp"
 #include "table/csv.hpp"
 
 namespace remap {

@@ -11,7 +11,7 @@
 
 #include "core/files.hpp"
 #include "remap/error.hpp"
-#include "worker/picture_fault.hpp"
+#include "worker/protocol.hpp"
 
 namespace remap {
 namespace {

@@ -15,6 +15,21 @@
 namespace remap {
 namespace {
 
+// This is the brightest value of a pixel. The peak of the narrowest highlight is below 1e8. The squares of
+// values beyond this limit do not fit into floats.
+constexpr float kBrightestPixel = 1e18f;
+
+// Filters and differences of sums leave values slightly below 0. They are accepted down to this fraction of
+// the brightest value.
+constexpr float kNegativeShare = 1e-4f;
+
+// Returns the fault of one value, or null.
+const char* rule_against(float value, float least) {
+  if (!std::isfinite(value)) return "values must be finite";
+  if (value > kBrightestPixel) return "values must not be above 1e18";
+  return value < least ? "values must not be negative" : nullptr;
+}
+
 // These limit the answer of one renderer, because `remapc renderers` lists all models, and parameters become
 // options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
@@ -138,6 +153,21 @@ std::optional<std::string> complaint_of(const Json& answer, const std::string& c
 }
 
 }  // namespace
+
+std::string picture_fault(const Image& image) {
+  const auto found = std::max_element(image.values.begin(), image.values.end());
+  const float least = found != image.values.end() && *found > 0.0f ? -kNegativeShare * *found : 0.0f;
+  const auto channels = static_cast<std::size_t>(image.channels),
+             width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const char* rule = rule_against(image.values[i], least);
+    if (rule == nullptr) continue;
+    const std::size_t pixel = i / channels;
+    return "the picture is " + number_text(decimal_value(image.values[i])) + " in row " +
+           std::to_string(pixel / width) + ", column " + std::to_string(pixel % width) + " (" + rule + ")";
+  }
+  return "";
+}
 
 PictureRequest picture_request(const Material& material, const Scene& scene) {
   PictureRequest request{"", shown_request(material, scene), scene.resolution, scene.shape, 1};
