@@ -10,6 +10,7 @@
 #include "build/fit_folder.hpp"
 #include "build/freshness.hpp"
 #include "build/report.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
@@ -276,8 +277,8 @@ class Builder {
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)
-      throw Error(ErrorKind::kInput, "dielectric F0 is " + number_text(sampled) + " in the samples and " +
-                                         number_text(own) + " in the manifest");
+      throw input_error("dielectric F0 is " + number_text(sampled) + " in the samples and " +
+                        number_text(own) + " in the manifest");
     fit.conversion.specular = network.fit.conversion.specular;
     fit.conversion.metallic = network.fit.conversion.metallic;
     fit.remarks = network.fit.remarks;

@@ -7,6 +7,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
+#include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
@@ -31,9 +32,8 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
-    throw Error(ErrorKind::kInput, command.folders.fits.string() + ": " + counted(reasons.size(), "item") +
-                                       (reasons.size() == 1 ? " is" : " are") +
-                                       " out of date (run `remapc build`)");
+    throw input_error(command.folders.fits.string() + ": " + counted(reasons.size(), "item") +
+                      (reasons.size() == 1 ? " is" : " are") + " out of date (run `remapc build`)");
 }
 
 std::string seconds_text(double seconds) { return number_text(rounded_up(seconds, 2)) + " s"; }

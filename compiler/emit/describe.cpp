@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "emit/header_data.hpp"
@@ -198,8 +199,7 @@ std::string two_digits(double error) { return number_text(rounded_up(error, 2));
 
 const ConverterData& require_converter(const Fit& fit) {
   if (fit.converter) return *fit.converter;
-  throw Error(ErrorKind::kNumeric,
-              fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
+  throw numeric_error(fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
 }
 
 HeaderData describe(const Fit& fit) {

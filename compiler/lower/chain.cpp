@@ -7,10 +7,10 @@
 #include <set>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 
 namespace remap {
@@ -37,17 +37,16 @@ std::string range_text(const Range& range) {
 }
 
 void require_links(const std::vector<Fit>& steps) {
-  if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: only one fit (give at least 2)");
+  if (steps.size() < 2) throw usage_error("chain: only one fit (give at least 2)");
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)
-      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " converts to " +
-                                         side_text(steps[i - 1].target) + ", but " + steps[i].id +
-                                         " converts from " + side_text(steps[i].source) +
-                                         " (add a step between them)");
+      throw input_error("chain: " + steps[i - 1].id + " converts to " + side_text(steps[i - 1].target) +
+                        ", but " + steps[i].id + " converts from " + side_text(steps[i].source) +
+                        " (add a step between them)");
     if (!visited.insert(steps[i].target.model).second)
-      throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
-                                         " a second time (remove a step)");
+      throw usage_error("chain: " + steps[i].id + " leads to " + steps[i].target.model +
+                        " a second time (remove a step)");
   }
 }
 
@@ -87,10 +86,9 @@ std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
     const double alpha = states(steps, {at(first.alpha, k, kCoarse), specular})[i].alpha;
     reached = {std::min(reached.min, alpha), std::max(reached.max, alpha)};
   }
-  throw Error(ErrorKind::kInput, "chain: the domains of the steps do not meet: before " + steps[i].id +
-                                     ", alpha is " + range_text(reached) + ", but this fit covers alpha " +
-                                     range_text(steps[i].domain.alpha) + " and specular to " +
-                                     number_text(steps[i].domain.specular.max));
+  throw input_error("chain: the domains of the steps do not meet: before " + steps[i].id + ", alpha is " +
+                    range_text(reached) + ", but this fit covers alpha " + range_text(steps[i].domain.alpha) +
+                    " and specular to " + number_text(steps[i].domain.specular.max));
 }
 
 Domain chain_domain(const std::vector<Fit>& steps) {
@@ -261,8 +259,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.source = steps.front().source;
   chain.target = steps.back().target;
   chain.id = id.empty() ? converter_id(chain.source.model, chain.target.model) : id;
-  if (!is_valid_id(chain.id))
-    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
+  if (!is_valid_id(chain.id)) throw usage_error("chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
   chain.domain = chain_domain(steps);
   chain.limits = steps.back().limits;
   chain.mapping = composed_form(steps, chain);

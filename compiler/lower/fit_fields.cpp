@@ -1,8 +1,8 @@
 #include "lower/fit_fields.hpp"
 
+#include "core/errors.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/limits.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -113,8 +113,7 @@ Scaling read_output_scaling(const Field& field) {
 }
 
 Json network_json(const Network& network) {
-  if (const std::string fault = oversize(network); !fault.empty())
-    throw Error(ErrorKind::kInput, "network: " + fault);
+  if (const std::string fault = oversize(network); !fault.empty()) throw input_error("network: " + fault);
   Json layers = Json::list();
   for (const Layer& layer : network.layers)
     layers.push_back({{"weights", numbers_json(layer.weights)}, {"biases", numbers_json(layer.biases)}});

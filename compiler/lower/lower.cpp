@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
 #include "lower/prove.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -152,10 +152,9 @@ ConverterData lower(const Fit& fit, double tolerance) {
     return {{}, *form, rounding.alpha, rounding.specular, {}};
   }
   if (!is_proportional(fit.mapping) && fit.domain.specular.min <= 0.0)
-    throw Error(ErrorKind::kNumeric,
-                fit.id +
-                    ": target specular is above 0 where source specular is 0, so the domain of the fit "
-                    "must begin above specular 0");
+    throw numeric_error(fit.id +
+                        ": target specular is above 0 where source specular is 0, so the domain of the fit "
+                        "must begin above specular 0");
   const std::vector<FormSample> samples = samples_of(fit);
   const double unit = largest(samples, fit.limits.specular);
   const double alpha_within = tolerance, specular_within = tolerance * unit;
@@ -183,11 +182,10 @@ ConverterData lower(const Fit& fit, double tolerance) {
     if (proven <= 1.0) return best;
   }
   if (proven <= kLoosest) return best;
-  throw Error(ErrorKind::kNumeric, fit.id + ": no form of up to " + std::to_string(kMostLoweredPowers) +
-                                       " x " + std::to_string(kMostLoweredTerms) +
-                                       " terms is proven within " + two_figures(kLoosest * alpha_within) +
-                                       " in alpha and " + two_figures(kLoosest * tolerance) +
-                                       " of the largest specular");
+  throw numeric_error(fit.id + ": no form of up to " + std::to_string(kMostLoweredPowers) + " x " +
+                      std::to_string(kMostLoweredTerms) + " terms is proven within " +
+                      two_figures(kLoosest * alpha_within) + " in alpha and " +
+                      two_figures(kLoosest * tolerance) + " of the largest specular");
 }
 
 void add_converter(Fit* fit, double tolerance) {

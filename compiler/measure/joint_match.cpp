@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "measure/function_cost.hpp"
 #include "measure/objective.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -54,8 +54,7 @@ ceres::Solver::Options solver_options(double tolerance) {
 ceres::Solver::Summary solve(ceres::Problem* problem, double tolerance) {
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(tolerance), problem, &summary);
-  if (!summary.IsSolutionUsable())
-    throw Error(ErrorKind::kNumeric, "joint match: Ceres failed: " + summary.message);
+  if (!summary.IsSolutionUsable()) throw numeric_error("joint match: Ceres failed: " + summary.message);
   return summary;
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <random>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "measure/joint_match.hpp"
@@ -33,8 +34,8 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
   const Range whole = parameter.range;
   if (const auto given = options.ranges.find(parameter.name); given != options.ranges.end()) {
     if (whole.contains(given->second.min) && whole.contains(given->second.max)) return given->second;
-    throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + ": the range " +
-                                       range_text(given->second) + " is not within " + range_text(whole));
+    throw usage_error(model.name + ": " + parameter.name + ": the range " + range_text(given->second) +
+                      " is not within " + range_text(whole));
   }
   if (parameter.role != ParameterRole::kRoughness) return whole;
   const double narrow =
@@ -47,8 +48,8 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
 void require_roleless(const ModelDescription& model, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
-      throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
-                                         " and varies anyway (choose a parameter without a role)");
+      throw usage_error(model.name + ": " + name + " is the " + std::string(role_word(role)) +
+                        " and varies anyway (choose a parameter without a role)");
 }
 
 // Returns the source parameters that vary, each with the range in which it varies. If it is grey, it gets one
@@ -68,8 +69,8 @@ std::vector<ParameterDescription> varied_of(const MaterialSampleOptions& options
   for (const auto& given : options.ranges)
     if (std::none_of(all.begin(), all.end(),
                      [&](const ParameterDescription& varied) { return varied.name == given.first; }))
-      throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
-                                         " has a range but does not vary (add --vary " + given.first + ")");
+      throw usage_error(source.name + ": " + given.first + " has a range but does not vary (add --vary " +
+                        given.first + ")");
   return all;
 }
 
@@ -252,7 +253,7 @@ MaterialTable run_material_sample(const Renderer& any_renderer, const MaterialSa
                                 options.objective.lights.front());
   const ModelDescription source = recast(renderer.model(options.source), options.source_roles);
   const ModelDescription target = recast(renderer.model(options.target), options.target_roles);
-  if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: must be at least 1");
+  if (options.count == 0) throw usage_error("samples: must be at least 1");
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
   const Matching matching = make_matching(options, picture_taker, source, target);
   const std::vector<std::vector<double>> samples = draw(options, matching.varied);

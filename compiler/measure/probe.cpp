@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "measure/objective.hpp"
-#include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
 
 namespace remap {
@@ -60,8 +60,7 @@ class SpecularProbe {
       WidthProbe probe{alpha, take(alpha, range_.min), take(alpha, 0.5 * (range_.min + range_.max)),
                        take(alpha, range_.max)};
       if (!(brightest(probe.high) > 0.0))
-        throw Error(ErrorKind::kInput,
-                    model.name + ": the picture at full specular is black; a highlight is needed");
+        throw input_error(model.name + ": the picture at full specular is black; a highlight is needed");
       widths_.push_back(std::move(probe));
     }
   }
@@ -206,9 +205,8 @@ Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& mo
     if (responds(clamped, clamped * inwards)) return clamped;
     double free = responds(middle, middle / inwards) ? middle : other;
     if (free == other && !responds(other, other / inwards))
-      throw Error(ErrorKind::kInput, model.name + ": no width from alpha " + number_text(alphas.min) +
-                                         " to " + number_text(alphas.max) +
-                                         " changes its picture (the roughness has no effect)");
+      throw input_error(model.name + ": no width from alpha " + number_text(alphas.min) + " to " +
+                        number_text(alphas.max) + " changes its picture (the roughness has no effect)");
     while (std::max(free / clamped, clamped / free) > step) {
       const double between = std::sqrt(clamped * free);
       (responds(between, between / inwards) ? free : clamped) = between;
@@ -257,7 +255,7 @@ DiffuseMatch match_diffuse(const PictureTaker& picture_taker, const ModelDescrip
   const double cross = inner_product(wanted.data(), given.data(), wanted.size());
   const double given_2 = inner_product(given.data(), given.data(), given.size());
   if (!(wanted_2 > 0.0) || !(given_2 > 0.0))
-    throw Error(ErrorKind::kInput, source.name + " to " + target.name + ": a diffuse picture is black");
+    throw input_error(source.name + " to " + target.name + ": a diffuse picture is black");
   const double left = std::max(0.0, wanted_2 - cross * cross / given_2);
   const double scale = cross / given_2;
   const double tolerance = std::max(ratio_tolerance(source), ratio_tolerance(target));

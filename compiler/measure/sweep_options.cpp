@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -33,9 +33,8 @@ void give_role(ModelDescription* model, ParameterRole role, const std::string& n
 void fix(ModelDescription* model, const std::string& name, double value, std::set<std::string>* displaced) {
   ParameterDescription& parameter = named(model, name);
   if (parameter.role == ParameterRole::kRoughness || parameter.role == ParameterRole::kSpecular)
-    throw Error(ErrorKind::kUsage, model->name + ": " + name + " is the " +
-                                       std::string(role_word(parameter.role)) +
-                                       " of this sweep and cannot be fixed (fix another parameter)");
+    throw usage_error(model->name + ": " + name + " is the " + std::string(role_word(parameter.role)) +
+                      " of this sweep and cannot be fixed (fix another parameter)");
   require_value(*model, parameter, value);
   parameter.role = ParameterRole::kOther;
   parameter.standard = value;
@@ -47,10 +46,9 @@ void measure_widths(ModelDescription* model) {
   const ParameterDescription& roughness = model->parameter(ParameterRole::kRoughness);
   const Range alphas = canonical_widths(model->roughness, roughness.range);
   if (!(alphas.min >= 0.0) || !(alphas.max > 0.0))
-    throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
-                                       " is invalid for the convention " +
-                                       std::string(encoding_name(model->roughness)) +
-                                       " (choose another convention: " + roughness.name + ":CONVENTION)");
+    throw usage_error(model->name + ": the range of " + roughness.name + " is invalid for the convention " +
+                      std::string(encoding_name(model->roughness)) +
+                      " (choose another convention: " + roughness.name + ":CONVENTION)");
   model->alpha = alphas;
 }
 
@@ -69,8 +67,7 @@ ParameterRoles recorded_roles(const std::string& roughness, const std::string& s
     const auto value =
         equals == std::string_view::npos ? std::nullopt : parse_number(setting.substr(equals + 1));
     if (!value)
-      throw Error(ErrorKind::kInput,
-                  "fixed parameters: cannot read \"" + fixed + "\" (use NAME=VALUE,NAME=VALUE)");
+      throw input_error("fixed parameters: cannot read \"" + fixed + "\" (use NAME=VALUE,NAME=VALUE)");
     roles.fixed[std::string(setting.substr(0, equals))] = *value;
   }
   return roles;
@@ -85,9 +82,9 @@ ModelDescription recast(const ModelDescription& model, const ParameterRoles& rol
   if (roles.convention) result.roughness = *roles.convention;
   for (const auto& [name, value] : roles.fixed) fix(&result, name, value, &displaced);
   if (!displaced.empty())
-    throw Error(ErrorKind::kUsage, model.name + ": " + *displaced.begin() +
-                                       " no longer has a role and needs a value (add " + *displaced.begin() +
-                                       "=VALUE to the fixed parameters)");
+    throw usage_error(model.name + ": " + *displaced.begin() +
+                      " no longer has a role and needs a value (add " + *displaced.begin() +
+                      "=VALUE to the fixed parameters)");
   for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
     if (model.has(role)) result.parameter(role);  // throws if the parameter has another role already
   if (!roles.roughness.empty() || roles.convention) measure_widths(&result);

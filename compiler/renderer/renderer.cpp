@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/stopwatch.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -38,9 +38,8 @@ bool ModelDescription::has(ParameterRole role) const {
 const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
   for (const ParameterDescription& description : parameters)
     if (description.role == role) return description;
-  throw Error(ErrorKind::kUsage, name + ": has no parameter for " +
-                                     kRoleNames[static_cast<std::size_t>(role)] +
-                                     " (remapc list --models shows the parameters of every model)");
+  throw usage_error(name + ": has no parameter for " + kRoleNames[static_cast<std::size_t>(role)] +
+                    " (remapc list --models shows the parameters of every model)");
 }
 
 const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
@@ -49,8 +48,7 @@ const ParameterDescription& ModelDescription::parameter(const std::string& param
     if (description.name == parameter_name) return description;
     names.push_back(description.name);
   }
-  throw Error(ErrorKind::kUsage,
-              name + ": has no parameter " + parameter_name + suggestion(parameter_name, names));
+  throw usage_error(name + ": has no parameter " + parameter_name + suggestion(parameter_name, names));
 }
 
 std::string Renderer::version_of(const std::string&) const { return version(); }
@@ -61,20 +59,19 @@ ModelDescription Renderer::model(const std::string& name) const {
     if (model.name == name) return model;
     names.push_back(model.name);
   }
-  throw Error(ErrorKind::kUsage, name + ": unknown model of " + version() + suggestion(name, names));
+  throw usage_error(name + ": unknown model of " + version() + suggestion(name, names));
 }
 
 void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value) {
   if (parameter.range.contains(value)) return;
-  throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + " = " + number_text(value) +
-                                     " is out of range (" + number_text(parameter.range.min) + " to " +
-                                     number_text(parameter.range.max) + ")");
+  throw usage_error(model.name + ": " + parameter.name + " = " + number_text(value) + " is out of range (" +
+                    number_text(parameter.range.min) + " to " + number_text(parameter.range.max) + ")");
 }
 
 namespace {
 
 [[noreturn]] void fail(const ModelDescription& model, const std::string& what) {
-  throw Error(ErrorKind::kUsage, model.name + ": " + what);
+  throw usage_error(model.name + ": " + what);
 }
 
 void require_map(const Image& map, const ModelDescription& model, const ParameterDescription& parameter) {

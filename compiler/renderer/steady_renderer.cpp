@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -43,12 +43,11 @@ Noise measure(const Renderer& renderer, const ModelDescription& model, const Lig
   }
   const double needed = std::ceil(noise.level * noise.level / (kSteadyNoise * kSteadyNoise));
   if (needed > kMostSeeds)
-    throw Error(ErrorKind::kInput,
-                model.name + ": pictures of two seeds differ by " + percent(noise.level) + " rms; " +
-                    number_text(needed) +
-                    " pictures would have to be averaged to reduce this difference to " +
-                    percent(kSteadyNoise) + ", the limit is " + std::to_string(kMostSeeds) +
-                    " (use a model without noise, or more samples per pixel in the worker)");
+    throw input_error(model.name + ": pictures of two seeds differ by " + percent(noise.level) + " rms; " +
+                      number_text(needed) +
+                      " pictures would have to be averaged to reduce this difference to " +
+                      percent(kSteadyNoise) + ", the limit is " + std::to_string(kMostSeeds) +
+                      " (use a model without noise, or more samples per pixel in the worker)");
   noise.pictures = std::max(1, static_cast<int>(needed));
   return noise;
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <sys/wait.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -33,9 +34,8 @@ int run(const std::string& argument, const std::string& output, const std::strin
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status)) return -1;
   if (WEXITSTATUS(status) == kNotFound)
-    throw Error(ErrorKind::kOutput,
-                "--plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
-                    " (install gnuplot, on Debian the package gnuplot-nox)");
+    throw output_error("--plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
+                       " (install gnuplot, on Debian the package gnuplot-nox)");
   return WEXITSTATUS(status);
 }
 
@@ -56,8 +56,8 @@ void require_gnuplot() {
   const ScratchFolder folder("remapc-plot");
   const int code = run("--version", folder.file("output"), folder.file("complaints"));
   if (code != 0)
-    throw Error(ErrorKind::kOutput, "--plot: gnuplot --version failed (" + std::to_string(code) +
-                                        ", install the package gnuplot-nox)");
+    throw output_error("--plot: gnuplot --version failed (" + std::to_string(code) +
+                       ", install the package gnuplot-nox)");
 }
 
 // Returns the gnuplot commands with which every plot starts: an SVG or PNG of `width` x `height` pixels with
@@ -87,13 +87,12 @@ void write_drawing(const std::filesystem::path& path, const std::string& script)
   const std::string complaints = read_file(folder.file("complaints"));
   // Messages with exit code 0 are warnings.
   if (code != 0)
-    throw Error(ErrorKind::kOutput,
-                "--plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
+    throw output_error("--plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
   const std::string picture = read_file(folder.file("output"));
   // gnuplot does not detect that a disk is full.
   if (picture.find("</svg>") == std::string::npos && picture.find("IEND") == std::string::npos)
-    throw Error(ErrorKind::kOutput,
-                "--plot: the output of gnuplot is incomplete (check the free space for temporary files)");
+    throw output_error(
+        "--plot: the output of gnuplot is incomplete (check the free space for temporary files)");
   write_file(path, picture);
 }
 
@@ -276,7 +275,7 @@ bool is_png(const std::filesystem::path& path) { return path.extension() == ".pn
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg" && !is_png(path))
-    throw Error(ErrorKind::kUsage, "--plot " + path.string() + ": the file name must end with .svg or .png");
+    throw usage_error("--plot " + path.string() + ": the file name must end with .svg or .png");
   require_gnuplot();
   create_parent(path);
 }

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "core/base64.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "look/image.hpp"
-#include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/shaded_map.hpp"
 #include "warp/coordinates.hpp"
@@ -248,7 +248,7 @@ WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
 
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html")
-    throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
+    throw usage_error("--report " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpReport& report) {

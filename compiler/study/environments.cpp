@@ -5,13 +5,13 @@
 #include <cmath>
 #include <span>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "look/brdf_models.hpp"
 #include "look/image_similarity.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/sweep.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "renderer/renderer.hpp"
 #include "report/contact_sheet.hpp"
@@ -247,8 +247,7 @@ SheetLabels sheet_labels(const EnvironmentsOptions& options) {
 
 void require_options(const EnvironmentsOptions& options) {
   if (options.pairs.empty() || options.alphas.empty() || options.environments.empty())
-    throw Error(ErrorKind::kUsage,
-                "environments: at least one pair, one alpha and one environment are required");
+    throw usage_error("environments: at least one pair, one alpha and one environment are required");
   require_names_differ(options.environments);
   const auto renderer = make_builtin_renderer();
   for (const StudyPair& pair : options.pairs)
@@ -256,15 +255,13 @@ void require_options(const EnvironmentsOptions& options) {
       const ModelDescription model = renderer->model(name);
       for (const double alpha : options.alphas)
         if (!model.alpha.contains(alpha))
-          throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range for " + name +
-                                             " (" + number_text(model.alpha.min) + " to " +
-                                             number_text(model.alpha.max) + ")");
+          throw usage_error("alpha: " + number_text(alpha) + " is out of range for " + name + " (" +
+                            number_text(model.alpha.min) + " to " + number_text(model.alpha.max) + ")");
     }
   if (!(options.specular > 0.0 && options.specular <= 1.0))
-    throw Error(ErrorKind::kUsage,
-                "specular: " + number_text(options.specular) + " is out of range (above 0, at most 1)");
+    throw usage_error("specular: " + number_text(options.specular) + " is out of range (above 0, at most 1)");
   if (!(options.diffuse >= 0.0 && options.diffuse <= 1.0))
-    throw Error(ErrorKind::kUsage, "diffuse: " + number_text(options.diffuse) + " is out of range (0 to 1)");
+    throw usage_error("diffuse: " + number_text(options.diffuse) + " is out of range (0 to 1)");
 }
 
 }  // namespace

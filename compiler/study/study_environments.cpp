@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "build/fit_folder.hpp"
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "study/environments.hpp"
 #include "study/study_options.hpp"
 
@@ -20,7 +20,7 @@ struct EnvironmentsCommand {
 StudyPair parse_pair(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
-    throw Error(ErrorKind::kUsage, "--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
+    throw usage_error("--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "core/report_text.hpp"
@@ -168,21 +169,18 @@ std::vector<Image> sheets_of(const WorkflowsOptions& options, const LitReflectan
 
 void require_options(const WorkflowsOptions& options) {
   if (options.materials.empty() || options.alphas.empty() || options.environments.empty())
-    throw Error(ErrorKind::kUsage,
-                "workflows: at least one material, one alpha and one environment are required");
+    throw usage_error("workflows: at least one material, one alpha and one environment are required");
   require_names_differ(options.environments);
   for (const Environment& environment : options.environments)
     if (environment.name == kHeadlight)
-      throw Error(ErrorKind::kUsage,
-                  "environment: the name headlight means the light at the camera (rename the file)");
+      throw usage_error("environment: the name headlight means the light at the camera (rename the file)");
   for (const double alpha : options.alphas)
     if (!(alpha >= kLeastAlpha && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
+      throw usage_error("alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
   for (const StudyMaterial& material : options.materials)
     if (material.alpha >= options.alphas.size())
-      throw Error(ErrorKind::kUsage, material.name + ": alpha index " + std::to_string(material.alpha) +
-                                         " is out of range (" + std::to_string(options.alphas.size()) +
-                                         " alphas)");
+      throw usage_error(material.name + ": alpha index " + std::to_string(material.alpha) +
+                        " is out of range (" + std::to_string(options.alphas.size()) + " alphas)");
 }
 
 float stored(float linear) {
@@ -335,7 +333,7 @@ std::string workflows_csv(const WorkflowsOptions& options,
 
 std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& learned, std::size_t count,
                                                std::uint64_t seed, unsigned jobs) {
-  if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
+  if (count == 0) throw usage_error("--family-count must be at least 1");
   std::vector<WorkflowMethod> methods = plain_methods(learned);
   std::vector<WorkflowConversion> there;  // conversions to specular by equation (2), one for each method
   for (WorkflowMethod& method : methods) {

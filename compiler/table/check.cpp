@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "remap/error.hpp"
 #include "table/light.hpp"
 
 namespace remap {
@@ -304,8 +304,7 @@ void require_fittable(const Table& table, bool accept_light) {
   const Finding& first = findings.front();
   const std::string more =
       errors == 1 ? "" : " (" + std::to_string(errors - 1) + " more errors: run remapc check)";
-  throw Error(ErrorKind::kInput,
-              place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
+  throw input_error(place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
 }
 
 }  // namespace remap

@@ -6,12 +6,12 @@
 
 #include <openssl/evp.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "core/report_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -102,8 +102,7 @@ std::string Csv::comment(const std::string& key) const {
 }
 
 void Csv::fail(std::size_t line, std::size_t column, const std::string& what) const {
-  throw Error(ErrorKind::kInput,
-              plain(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what));
+  throw input_error(plain(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what));
 }
 
 double Csv::number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const {
@@ -139,8 +138,7 @@ Csv parse_csv(std::string_view text, const std::string& name) {
     require_line(csv, number, line);
     if (!trimmed(line).empty()) read_line(line, number, &delimiter, &csv);
   }
-  if (csv.header.cells.empty())
-    throw Error(ErrorKind::kInput, name + ": no header row found (a CSV table is needed)");
+  if (csv.header.cells.empty()) throw input_error(name + ": no header row found (a CSV table is needed)");
   if (csv.lines.empty()) csv.fail(number, 1, "the table has no rows");
   return csv;
 }
@@ -165,7 +163,7 @@ std::string sha256(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned length = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::kNumeric, "sha256: cannot compute the digest");
+    throw numeric_error("sha256: cannot compute the digest");
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
   for (unsigned i = 0; i < length; ++i) {

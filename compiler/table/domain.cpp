@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "lower/chain.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -82,8 +82,7 @@ void join_widths(std::vector<TableRow>& rows) {
 
 Domain table_domain(const Table& table) {
   const auto domain = covered_box(columns_of(table));
-  if (!domain)
-    throw Error(ErrorKind::kInput, table.name + ": no width has usable rows (rows of status ok are needed)");
+  if (!domain) throw input_error(table.name + ": no width has usable rows (rows of status ok are needed)");
   return *domain;
 }
 

@@ -10,7 +10,6 @@
 #include "core/input_file.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -106,8 +105,8 @@ ModelSide side_of(const Csv& csv, const std::string& role, const ModelSide& give
   if (const std::string text = csv.comment(role + "_roughness"); !text.empty()) {
     const auto convention = encoding_from_name(text);
     if (!convention)
-      throw Error(ErrorKind::kInput, csv.name + ": " + role + "_roughness: unknown convention \"" + text +
-                                         "\"" + suggestion(text, convention_names()));
+      throw input_error(csv.name + ": " + role + "_roughness: unknown convention \"" + text + "\"" +
+                        suggestion(text, convention_names()));
     side.roughness = *convention;
   }
   for (const char* suffix : {"_specular", "_specular_column"})
@@ -195,15 +194,14 @@ ColumnMap column_map(const std::string& text) {
     return map;
   }
   if (text.find('=') == std::string::npos)
-    throw Error(ErrorKind::kUsage,
-                "--columns: unknown preset '" + text + "' (use sztrajman-2019, or OWN=FILE pairs)");
+    throw usage_error("--columns: unknown preset '" + text + "' (use sztrajman-2019, or OWN=FILE pairs)");
   for (const CsvCell& cell : split_csv_line(text, ',')) {
     const std::size_t equals = cell.text.find('=');
     const std::string own(cell.text.substr(0, equals));
     if (equals == std::string_view::npos ||
         std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
-      throw Error(ErrorKind::kUsage, "--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
-                                         suggestion(own, kColumns));
+      throw usage_error("--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
+                        suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));
   }
   return map;

@@ -96,9 +96,8 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
                   const std::string& context) {
   const auto count = std::ranges::count(model.parameters, role, &ParameterDescription::role);
   if (count > 1 || (needed && count == 0))
-    throw Error(ErrorKind::kInput, context + ": " + std::to_string(count) + " parameters have the role " +
-                                       std::string(role_word(role)) + " (declare " +
-                                       (needed ? "one" : "at most one") + ")");
+    throw input_error(context + ": " + std::to_string(count) + " parameters have the role " +
+                      std::string(role_word(role)) + " (declare " + (needed ? "one" : "at most one") + ")");
 }
 
 ModelDescription read_model(const Field& field, const std::string& prefix) {
@@ -118,7 +117,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   require_once(model, ParameterRole::kDiffuse, false, model.name);
   model.alpha = canonical_widths(model.roughness, model.parameter(ParameterRole::kRoughness).range);
   if (!(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0) || !std::isfinite(model.alpha.max))
-    throw Error(ErrorKind::kInput, model.name + ": the range of its roughness does not fit its convention");
+    throw input_error(model.name + ": the range of its roughness does not fit its convention");
   if (field.contains("precision")) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
@@ -222,8 +221,7 @@ std::optional<std::string> read_answer(const std::string& line, std::int64_t id,
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& context) {
   const Json answer = parse_answer(line, id, context);
-  if (const auto complaint = complaint_of(answer, context))
-    throw Error(ErrorKind::kInput, context + ": " + *complaint);
+  if (const auto complaint = complaint_of(answer, context)) throw input_error(context + ": " + *complaint);
   const Field field(answer, context);
   if (field["protocol"].count() != kWorkerProtocol)
     field["protocol"].fail("is version " + field["protocol"].json().dump() + " (must be " +

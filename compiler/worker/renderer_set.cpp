@@ -5,10 +5,10 @@
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/nearest_name.hpp"
-#include "remap/error.hpp"
 #include "worker/folders.hpp"
 
 namespace remap {
@@ -85,16 +85,15 @@ ModelDescription RendererSet::model(const std::string& name) const {
                                    "connected renderers; --worker \"" +
                                        name.substr(0, name.find('/')) + "=COMMAND\" connects another renderer"
                                  : "did you mean " + nearest + "?";
-  throw Error(ErrorKind::kUsage, name + ": is not a model of " + builtin_->version() +
-                                     " or of a connected renderer (" + advice + ")");
+  throw usage_error(name + ": is not a model of " + builtin_->version() + " or of a connected renderer (" +
+                    advice + ")");
 }
 
 std::vector<ModelDescription> RendererSet::models_of(const std::string& worker) const {
   std::vector<std::string> names;
   for (const WorkerEntry& entry : workers_) names.push_back(entry.name);
   if (std::ranges::find(names, worker) == names.end())
-    throw Error(ErrorKind::kUsage,
-                worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
+    throw usage_error(worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
   return renderer_of(worker).models();
 }
 
@@ -140,7 +139,7 @@ std::vector<WorkerEntry> read_worker_list(const fs::path& path) {
 WorkerEntry parse_worker(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !is_name(text.substr(0, equals)) || equals + 1 == text.size())
-    throw Error(ErrorKind::kUsage, "--worker " + text + ": is not of the form NAME=COMMAND");
+    throw usage_error("--worker " + text + ": is not of the form NAME=COMMAND");
   return {text.substr(0, equals), text.substr(equals + 1), fs::current_path().string(), ""};
 }
 
@@ -149,7 +148,7 @@ std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given) {
   for (const std::string& text : given) {
     WorkerEntry entry = parse_worker(text);
     if (!entries.emplace(entry.name, entry).second)
-      throw Error(ErrorKind::kUsage, "--worker " + text + ": " + entry.name + " was given twice");
+      throw usage_error("--worker " + text + ": " + entry.name + " was given twice");
   }
   for (const fs::path& list : {own_worker_list(), shipped_worker_list()}) {
     if (!fs::exists(list)) continue;

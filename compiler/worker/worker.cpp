@@ -55,8 +55,7 @@ void append_triangle(std::string* bytes, std::uint32_t a, std::uint32_t b, std::
 // counter-clockwise from outside. Facets deviate by at most 1e-4 of the sphere's radius. Throws kOutput.
 // Throws kUsage for the sphere, which renderers make themselves.
 void write_mesh(Shape shape, const std::filesystem::path& path) {
-  if (shape == Shape::kSphere)
-    throw Error(ErrorKind::kUsage, "mesh: the sphere has none (choose another shape)");
+  if (shape == Shape::kSphere) throw usage_error("mesh: the sphere has none (choose another shape)");
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kRound * kTube);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) bytes += std::string("\nproperty float ") + name;
