@@ -9,7 +9,7 @@
 #include "commands/option_readers.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "measure/provenance.hpp"
+#include "measure/sweep_options.hpp"
 
 namespace remap {
 namespace {

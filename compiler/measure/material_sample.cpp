@@ -9,7 +9,7 @@
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "measure/joint_match.hpp"
-#include "measure/provenance.hpp"
+#include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "table/domain.hpp"

@@ -14,7 +14,7 @@
 #include "measure/family_probe.hpp"
 #include "measure/joint_match.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/provenance.hpp"
+#include "measure/sweep_options.hpp"
 #include "measure/target_pictures.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"

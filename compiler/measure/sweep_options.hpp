@@ -1,4 +1,5 @@
-// This file holds the options of a sweep: which parameters vary, what is computed, and how it runs.
+// This file holds the options of a sweep: which parameters vary, what is computed, and how it runs. It also
+// writes them, and what the sweep measured, to the comments of its table.
 #pragma once
 
 #include <atomic>
@@ -10,8 +11,11 @@
 
 #include "lower/mapping.hpp"
 #include "measure/objective.hpp"
+#include "measure/picture_taker.hpp"
 #include "measure/probe.hpp"
 #include "renderer/renderer.hpp"
+#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 
@@ -65,5 +69,30 @@ struct SweepExecution {
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
   const std::atomic<bool>* cancelled = nullptr;  // checked between rows; throws kInterrupted
 };
+
+// Adds one side: the model, its parameters and the law of its specular.
+void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
+
+// Adds the limits of the target, which must be known.
+void add_limits(const Limits& limits, Comments* comments);
+
+// Adds the widths of one side that change its pictures, `effective`, if some of the widths `all` do not.
+void add_widths(const std::string& role, const Range& all, const Range& effective, Comments* comments);
+
+// Adds the noise of one side and the number of pictures that are averaged, if the noise was measured.
+void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
+               Comments* comments);
+
+// Adds the renderer's version and how pictures were compared.
+void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
+
+// Adds the factor between the lights. If a user had to accept it, adds this, too.
+void add_light_scale(const LightMatch& match, Comments* comments);
+
+void add_resolution(const PairOptions& options, Comments* comments);
+
+// Returns the alpha below which the highlight of a headlight has a radius of less than one pixel sample, so
+// that the picture no longer resolves it.
+double subpixel_alpha(int resolution, int samples_per_axis);
 
 }  // namespace remap

@@ -9,7 +9,7 @@
 #include <nanoflann.hpp>
 
 #include "core/errors.hpp"
-#include "warp/points.hpp"
+#include "warp/registration.hpp"
 
 namespace remap {
 namespace {
