@@ -21,8 +21,8 @@ namespace {
 struct BuildCommand {
   BuildFolders folders;
   RendererOptions renderers;
-  unsigned jobs = 0;
-  bool force = false, prune = false, check = false, json = false;
+  BuildExecution execution;
+  bool check = false, json = false;
 };
 
 void run_check(const BuildCommand& command, const Manifest& manifest) {
@@ -82,8 +82,8 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     std::cerr << id << ": no longer in the manifest, so its files were removed\n";
   for (const std::string& id : vanished)
     std::cerr << id << ": no longer in the manifest; its files are kept"
-              << (command.prune ? " because they were edited after the last build"
-                                : " (--prune removes them)")
+              << (command.execution.prune ? " because they were edited after the last build"
+                                          : " (--prune removes them)")
               << "\n";
   for (const BuiltItem& item : result.built)
     if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
@@ -115,12 +115,9 @@ void run(const BuildCommand& command) {
   BuildResult result;
   {
     Progress progress("build " + command.folders.fits.string(), manifest.size());
-    BuildExecution execution;
-    execution.jobs = command.jobs;
-    execution.force = command.force;
+    BuildExecution execution = command.execution;
     execution.cancelled = &interruption();
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
-    execution.prune = command.prune;
     result = build(*renderer, manifest, command.folders, execution);
   }
   report(command, manifest, result, stopwatch.seconds());
@@ -140,12 +137,12 @@ void add_build_command(Command& app) {
   command->option_group("What to make");
   command->add_flag("--check", options.check,
                     "Write nothing, list the items that are out of date; exit code 1 if there are any");
-  command->add_flag("--force", options.force, "Make every item again");
-  command->add_flag("--prune", options.prune,
+  command->add_flag("--force", options.execution.force, "Make every item again");
+  command->add_flag("--prune", options.execution.prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
   command->add_flag("--json", options.json, "Print the result as JSON to standard output");
   command->option_group(kRareOptions);
-  command->add_option("--jobs", options.jobs,
+  command->add_option("--jobs", options.execution.jobs,
                       "Items made at a time, 0: one per core; the results do not depend on it");
   add_renderer_options(*command, options.renderers);
   command->footer(

@@ -28,7 +28,6 @@ enum class Method {
   kShipped,   // converted by a fit (lower/interpreter.hpp)
   kBest,      // least mean RMSE over the given environments; no conversion can be better
 };
-std::string method_name(Method method);
 
 // An EnvironmentsOptions holds the options. `progress` is called progress_steps() times.
 struct EnvironmentsOptions : SphereSampling {
@@ -50,21 +49,6 @@ struct Conversion {
   double alpha = 0.0;  // alpha of the source
   double target_alpha = 0.0, target_specular = 0.0;
 };
-
-// Returns every pair and alpha converted by every method that applies to the pair, sorted by alpha, pair and
-// method. kShipped applies to pairs with a fit in `options.fits`.
-std::vector<Conversion> conversions_of(const EnvironmentsOptions& options);
-
-// This is the height of the pictures in the search, and also the number of calls of `progress` for each
-// alpha.
-inline constexpr int kLeastErrorResolution = 48;
-
-// Returns, for each of `starts`, the target parameters with the smallest mean RMSE over the environments. All
-// starts have the same source alpha. Searches the best specular at each of eleven alphas around the start,
-// and interpolates by a parabola through the best three. If the best alpha is within a factor of 1.5 of the
-// start, the RMSE is accurate to about 1 %.
-std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
-                                         std::span<const Conversion> starts);
 
 // Returns the pairs and alphas that the documentation has figures for.
 std::vector<StudyPair> default_pairs();

@@ -19,7 +19,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kSheetRowsAGroup = 2;
+constexpr std::size_t kSheetRowsAGroup = 2, kFamilyKinds = 3;
 constexpr double kLeastAlpha = 0.01;
 constexpr const char* kHeadlight = "headlight";  // name of the light in the table
 constexpr const char* kColumns[] = {"material",  "group", "alpha", "diffuse_r", "diffuse_g",
@@ -41,6 +41,45 @@ MetallicReflection reflection_of(const MetallicWorkflow& workflow) {
 
 WorkflowMethod method_of(const std::string& name, const WorkflowConversion& conversion) {
   return {name, conversion, reflection_of(conversion.metallic)};
+}
+
+// Returns the methods for plain diffuse: equation (3) with both means and with F0 0.03 and 0.04, Khronos'
+// solver, the networks in `learned`, and the projection. Khronos' solver is made for the glTF convention, but
+// importers apply it to plain maps. Networks for other conventions are skipped.
+std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned) {
+  const auto plain = [](WorkflowFormula formula, double f0) {
+    return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
+  };
+  std::vector<WorkflowMethod> methods = {
+      method_of("equation (3), mean, 0.03", plain(ClosedFormula::kEquation3, kPaperDielectricF0)),
+      method_of("equation (3), weighted, 0.03", plain(ClosedFormula::kEquation3ByAlbedo, kPaperDielectricF0)),
+      method_of("equation (3), mean, 0.04", plain(ClosedFormula::kEquation3, kCommonDielectricF0)),
+      method_of("equation (3), weighted, 0.04",
+                plain(ClosedFormula::kEquation3ByAlbedo, kCommonDielectricF0))};
+  WorkflowMethod khronos = method_of(
+      "Khronos", conversion_by(ClosedFormula::kKhronos, kCommonDielectricF0, DiffuseConvention::kScaled));
+  khronos.reflection.diffuse_of_albedo = 1.0;
+  methods.push_back(khronos);
+  for (const WorkflowFit& network : learned) {
+    WorkflowConversion conversion = network.conversion;
+    if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
+    conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
+    methods.push_back(method_of(network.id, conversion));
+  }
+  methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));
+  return methods;
+}
+
+// Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
+// solver is made for this convention.
+std::vector<WorkflowMethod> gltf_methods() {
+  const auto scaled = [](WorkflowFormula formula) {
+    return conversion_by(std::move(formula), kCommonDielectricF0, DiffuseConvention::kScaled);
+  };
+  return {method_of("equation (3), mean", scaled(ClosedFormula::kEquation3)),
+          method_of("equation (3), weighted", scaled(ClosedFormula::kEquation3ByAlbedo)),
+          method_of("Khronos", scaled(ClosedFormula::kKhronos)),
+          method_of("projection", scaled(Projection{kCleanPrior}))};
 }
 
 // Converts reflectances to the parameters of a conversion.
@@ -224,42 +263,6 @@ RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversio
 }
 
 }  // namespace
-
-std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned) {
-  using namespace remap;
-  const auto plain = [](WorkflowFormula formula, double f0) {
-    return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
-  };
-  std::vector<WorkflowMethod> methods = {
-      method_of("equation (3), mean, 0.03", plain(ClosedFormula::kEquation3, kPaperDielectricF0)),
-      method_of("equation (3), weighted, 0.03", plain(ClosedFormula::kEquation3ByAlbedo, kPaperDielectricF0)),
-      method_of("equation (3), mean, 0.04", plain(ClosedFormula::kEquation3, kCommonDielectricF0)),
-      method_of("equation (3), weighted, 0.04",
-                plain(ClosedFormula::kEquation3ByAlbedo, kCommonDielectricF0))};
-  WorkflowMethod khronos = method_of(
-      "Khronos", conversion_by(ClosedFormula::kKhronos, kCommonDielectricF0, DiffuseConvention::kScaled));
-  khronos.reflection.diffuse_of_albedo = 1.0;
-  methods.push_back(khronos);
-  for (const WorkflowFit& network : learned) {
-    WorkflowConversion conversion = network.conversion;
-    if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
-    conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
-    methods.push_back(method_of(network.id, conversion));
-  }
-  methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));
-  return methods;
-}
-
-std::vector<WorkflowMethod> gltf_methods() {
-  using namespace remap;
-  const auto scaled = [](WorkflowFormula formula) {
-    return conversion_by(std::move(formula), kCommonDielectricF0, DiffuseConvention::kScaled);
-  };
-  return {method_of("equation (3), mean", scaled(ClosedFormula::kEquation3)),
-          method_of("equation (3), weighted", scaled(ClosedFormula::kEquation3ByAlbedo)),
-          method_of("Khronos", scaled(ClosedFormula::kKhronos)),
-          method_of("projection", scaled(Projection{kCleanPrior}))};
-}
 
 std::size_t progress_steps(const WorkflowsOptions& options) {
   return options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution)) +
