@@ -65,6 +65,7 @@ std::optional<ErrorFigures> image_error(const std::vector<TableRow>& rows) {
   return error_figures(std::move(errors));
 }
 
+constexpr std::size_t kInverseAlphas = 48, kInverseSpeculars = 10;
 constexpr int kProbes = 400;  // alphas at which the largest specular is computed
 
 // Returns the largest target specular that the fit reaches at every alpha. This is where the inverse ends.
@@ -114,7 +115,9 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);
   if (!options.kind.empty()) {
-    const Regression regression = fit_kind(inside_rows(split.training), fit.domain, options, progress);
+    std::vector<TableRow> below_limits = split.training;
+    std::erase_if(below_limits, [](const TableRow& row) { return row.status != RowStatus::kOk; });
+    const Regression regression = fit_kind(below_limits, fit.domain, options, progress);
     fit.mapping = regression.mapping;
     fit.method = regression.method;
     if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;
@@ -135,13 +138,12 @@ Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, con
   return fit_mlp(rows, mlp, progress);
 }
 
-Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_count,
-                    std::size_t specular_count) {
+Table inverse_table(const Fit& fit, std::string_view bytes) {
   Table table;
   table.source = fit.target;
   table.target = fit.source;
   table.name = converter_id(table.source.model, table.target.model) + ".csv";
-  const double least = fit.domain.specular.max / static_cast<double>(specular_count);
+  const double least = fit.domain.specular.max / kInverseSpeculars;
   const Range alphas{evaluate_fit(fit, fit.domain.alpha.min, least).alpha,
                      evaluate_fit(fit, fit.domain.alpha.max, least).alpha};
   const double top = reached_specular(fit);
@@ -156,12 +158,12 @@ Table inverse_table(const Fit& fit, std::string_view bytes, std::size_t alpha_co
       {"inverse_of", fit.id},
       {"inverse_of_sha256", sha256(bytes)},
   };
-  for (std::size_t i = 0; i < alpha_count; ++i)
-    for (std::size_t j = 1; j <= specular_count; ++j) {
-      const double share = static_cast<double>(i) / static_cast<double>(alpha_count - 1);
-      const double alpha = i + 1 == alpha_count ? alphas.max : alphas.min + share * (alphas.max - alphas.min);
-      table.rows.push_back(
-          row_of(fit, {alpha, top * static_cast<double>(j) / static_cast<double>(specular_count)}));
+  for (std::size_t i = 0; i < kInverseAlphas; ++i)
+    for (std::size_t j = 1; j <= kInverseSpeculars; ++j) {
+      const double share = static_cast<double>(i) / (kInverseAlphas - 1.0);
+      const double alpha =
+          i + 1 == kInverseAlphas ? alphas.max : alphas.min + share * (alphas.max - alphas.min);
+      table.rows.push_back(row_of(fit, {alpha, top * static_cast<double>(j) / kInverseSpeculars}));
     }
   return table;
 }

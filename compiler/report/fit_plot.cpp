@@ -60,12 +60,10 @@ void require_gnuplot() {
                        ", install the package gnuplot-nox)");
 }
 
-// Returns the gnuplot commands with which every plot starts: an SVG or PNG of `width` x `height` pixels with
-// a light grid.
-std::string plot_style(int width, int height, bool is_png) {
-  return std::string("set terminal ") + (is_png ? "pngcairo" : "svg") + " size " + std::to_string(width) +
-         "," + std::to_string(height) +
-         " enhanced font 'Helvetica,13' background rgb 'white'\n"
+// Returns the gnuplot commands with which a plot starts: an SVG or PNG with a light grid.
+std::string plot_style(bool is_png) {
+  return std::string("set terminal ") + (is_png ? "pngcairo" : "svg") +
+         " size 1280,1040 enhanced font 'Helvetica,13' background rgb 'white'\n"
          "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
          "set tics textcolor rgb 'black'\n";
 }
@@ -127,7 +125,7 @@ class Plot {
 
   std::string script(bool is_png) {
     write_data();
-    out_ << plot_style(1280, 1040, is_png)
+    out_ << plot_style(is_png)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
          << gnuplot_text(fit_.source.model + " to " + fit_.target.model + ", " +
                          std::to_string(rows_.size()) + " rows of " + fit_.table.name)

@@ -153,8 +153,6 @@ void CsvText::add(std::string_view cell) {
 
 void CsvText::add(double number) { text_ += number_text(number) + ","; }
 
-void CsvText::add(const std::optional<double>& number) { number ? add(*number) : add(std::string_view()); }
-
 std::string file_sha256(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path) ? sha256(read_file(path)) : std::string();
 }

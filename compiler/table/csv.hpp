@@ -6,7 +6,6 @@
 
 #include <concepts>
 #include <filesystem>
-#include <optional>
 #include <ranges>
 #include <string>
 #include <string_view>
@@ -68,7 +67,7 @@ class CsvText {
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
   // Adds a row of at least one cell. A cell is a text (quoted if it holds a comma) or a number (the shortest
-  // text that reads back). An optional number may be missing, which gives an empty cell. A range gives one
+  // text that reads back). A range gives one
   // cell for each element.
   template <typename... Cells>
   void add_row(const Cells&... cells) {
@@ -82,7 +81,6 @@ class CsvText {
   void add(std::string_view cell);
   void add(double number);
   void add(std::size_t number) { add(static_cast<double>(number)); }
-  void add(const std::optional<double>& number);
   template <std::ranges::range Numbers>
   requires(!std::convertible_to<Numbers, std::string_view>) void add(const Numbers& numbers) {
     for (const auto& number : numbers) add(number);

@@ -76,13 +76,6 @@ Residuals residuals_of(const std::vector<TableRow>& rows,
   return errors;
 }
 
-std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows) {
-  std::vector<TableRow> inside;
-  for (const TableRow& row : rows)
-    if (row.status == RowStatus::kOk) inside.push_back(row);
-  return inside;
-}
-
 Residuals residuals_of(const std::vector<TableRow>& rows, const Fit& fit) {
   return residuals_of(rows,
                       [&](double alpha, double specular) { return evaluate_fit(fit, alpha, specular); });
@@ -127,11 +120,6 @@ std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t c
 FitProgress part_of(const FitProgress& progress, double begin, double end) {
   if (!progress) return {};
   return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };
-}
-
-double error_weight(double value) {
-  constexpr double kLeastValue = 0.02;
-  return 1.0 / std::max(value, kLeastValue);
 }
 
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {

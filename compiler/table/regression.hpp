@@ -32,9 +32,6 @@ struct RowSplit {
 // the machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const Domain& domain, std::uint64_t seed, double held_out_fraction);
 
-// Returns the rows whose target is at no limit.
-std::vector<TableRow> inside_rows(const std::vector<TableRow>& rows);
-
 // A Residuals holds errors of target alpha and target specular, one per row. A fit, or `map`, gives the
 // target's alpha and specular for the source's.
 struct Residuals {
@@ -75,10 +72,6 @@ using FitProgress = std::function<void(double share)>;
 // Returns the progress for a part of the work that goes from the fraction `begin` to the fraction `end`. It
 // refers to `progress`, and is empty if `progress` is empty.
 FitProgress part_of(const FitProgress& progress, double begin, double end);
-
-// Returns the weight of an output's error when fits are compared: 1 / value, but at most 50. Pictures show
-// errors relative to the value, but no errors of values below a fiftieth.
-double error_weight(double value);
 
 // Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with
 // `kind`.

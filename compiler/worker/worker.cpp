@@ -79,13 +79,6 @@ using std::chrono::duration_cast;
 // A wait checks this often for an interruption.
 constexpr std::chrono::milliseconds kGlance{100};
 
-// Quotes `text` as one word of the shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
-  return word + "'";
-}
-
 // These limit parts of a message, so that it has room for the place and for how to install the worker.
 constexpr std::size_t kLongestWhat = 1000, kLongestLog = 500;
 
@@ -102,7 +95,8 @@ std::string without(const std::string& opening, const std::string& text) {
 }
 
 std::string script_of(const WorkerEntry& entry) {
-  return "REMAP_WORKER_FOLDER=" + quoted(entry.folder) + "; REMAP_RENDERERS=" + quoted(renderers_folder()) +
+  return "REMAP_WORKER_FOLDER=" + shell_word(entry.folder) +
+         "; REMAP_RENDERERS=" + shell_word(renderers_folder().string()) +
          "; export REMAP_WORKER_FOLDER REMAP_RENDERERS; exec " + entry.command;
 }
 
