@@ -136,11 +136,8 @@ std::vector<RoleValues> JointMatcher::other_guesses() const {
 RoleValues JointMatcher::point_of(const RoleValues& shares) const {
   RoleValues point;
   for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
-    const Coordinate& coordinate = target_.coordinates()[i];
-    const auto named = shares.others.find(coordinate.name);
-    const double share =
-        named == shares.others.end() ? target_.value(shares, i % (kDiffuseCoordinate + 1)) : named->second;
-    target_.set_value(&point, i, share_of(coordinate.range, share));
+    const double share = target_.value(shares, i % (kDiffuseCoordinate + 1));
+    target_.set_value(&point, i, share_of(target_.coordinates()[i].range, share));
   }
   return point;
 }

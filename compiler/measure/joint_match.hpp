@@ -48,8 +48,8 @@ class JointMatcher {
   // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
   double picture_error(std::span<const std::vector<float>> pictures) const;
 
-  // Converts fractions (0 to 1) of the target's ranges to parameters. A parameter without a role that
-  // `shares` does not name gets the fraction of alpha, specular or diffuse, in turn.
+  // Converts fractions (0 to 1) of the target's ranges to parameters. Parameters without a role get the
+  // fractions of alpha, specular and diffuse, in turn.
   RoleValues point_of(const RoleValues& shares) const;
 
   // Returns four other starting points, which show whether a match is unique: narrow and wide, weak and

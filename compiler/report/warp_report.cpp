@@ -84,12 +84,12 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
           0.525 * std::max(height, width / 3.0)};
 }
 
-// Draws the layers `width` pixels wide, with the aspect ratio of the box. The second coordinate points up. If
+// Draws the layers kSide pixels wide, with the aspect ratio of the box. The second coordinate points up. If
 // points have only one dimension, they are spread along it to be visible. Lines mark the zeros.
-Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
-  const double scale = 0.5 * static_cast<double>(width) / box.half_width;
+Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box) {
+  const double scale = 0.5 * kSide / box.half_width;
   Image picture =
-      blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
+      blank_picture(kSide, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
   draw_lines(box, scale, &picture);
   for (const PlottedPoints& layer : layers)
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
@@ -239,10 +239,10 @@ WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
   std::vector<PlottedPoints> all = before;
   all.insert(all.end(), after.begin(), after.end());
   const PlotBox box = box_around(all);
-  report.source_space = appearance_plot(own, box, kSide);
-  report.target_space = appearance_plot(goal, box, kSide);
-  report.before = appearance_plot(before, box, kSide);
-  report.after = appearance_plot(after, box, kSide);
+  report.source_space = appearance_plot(own, box);
+  report.target_space = appearance_plot(goal, box);
+  report.before = appearance_plot(before, box);
+  report.after = appearance_plot(after, box);
   return report;
 }
 
