@@ -17,7 +17,7 @@
 #include "core/stopwatch.hpp"
 #include "emit/emit.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/network/material_network.hpp"
+#include "fit/network/fit_network.hpp"
 #include "lower/chain.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"

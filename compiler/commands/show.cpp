@@ -15,7 +15,6 @@
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
-#include "table/domain.hpp"
 #include "table/light.hpp"
 #include "table/regression.hpp"
 

@@ -17,7 +17,6 @@
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
 #include "warp/strokes.hpp"
-#include "warp/tabulated_set.hpp"
 #include "warp/texture_material.hpp"
 
 namespace remap {

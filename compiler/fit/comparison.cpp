@@ -1,11 +1,12 @@
-#include "fit/comparison.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
+// This file compares fits of one table. It chooses the fit with the fewest numbers among those that look like
+// the best.
+#include "fit/fit_table.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
 

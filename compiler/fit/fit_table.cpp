@@ -15,7 +15,6 @@
 #include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
-#include "table/domain.hpp"
 #include "table/regression.hpp"
 
 namespace remap {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/comparison.hpp"
-#include "fit/network/mlp.hpp"
+#include "fit/network/fit_network.hpp"
+#include "lights/pair_pictures.hpp"
 #include "lower/fit.hpp"
 #include "table/regression.hpp"
 #include "table/table.hpp"
@@ -29,7 +29,7 @@ struct FitOptions {
 };
 
 // These are the regressions that a user can choose. If the user chooses none, forms are compared
-// (comparison.hpp).
+// (comparison.cpp).
 inline constexpr std::array<std::string_view, 3> kFitKinds = {"parametric", "svr", "mlp"};
 
 // Fits the rows below the limits of the target by the kind of the options. The curves must be sound in
@@ -51,5 +51,22 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
 // clamped. It is flat if even specular 0 gives more. `bytes` is the fit file, whose SHA-256 is recorded.
 // Errors are NaN, because no pictures are compared.
 Table inverse_table(const Fit& fit, std::string_view bytes);
+
+// Fits compact forms of all shapes (lower/form_fit.hpp) to the training rows of `split`. `base` is the fit
+// without its mapping. If `pictures` is not null and has the pair of models, pictures then refine the forms.
+// Otherwise, only rows are used.
+//
+// Among the sound candidates whose errors are close to the best, chooses the one with the fewest numbers.
+// With pictures, both errors must be within 1 % of the best (or the RMSE within .05 points, which is an
+// eighth of an 8-bit step). Without pictures, both relative errors on the held-out rows must be within 1 %,
+// or within .01, which pictures do not show. Throws kNumeric with the reasons if no candidate is sound.
+//
+// If `compared` is not null, it receives the fits that were compared, for plots, in the order of the
+// candidates.
+Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pictures,
+                  const FitProgress& progress, std::vector<Fit>* compared = nullptr);
+
+// Sets the errors on the held-out rows and, if there are pictures, the errors of pictures.
+void judge_fit(const RowSplit& split, const PairPictures* pictures, Fit* fit);
 
 }  // namespace remap

@@ -65,7 +65,7 @@ struct TableRecord {
 };
 
 // A CandidateRecord is one row of the comparison by which `--model auto` decided
-// (compiler/fit/comparison.hpp).
+// (compiler/fit/comparison.cpp).
 struct CandidateRecord {
   std::string name;              // kind and shape of the candidate
   std::size_t number_count = 0;  // number of coefficients, which measures complexity

@@ -1,5 +1,3 @@
-#include "measure/family_probe.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

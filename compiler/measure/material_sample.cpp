@@ -12,8 +12,8 @@
 #include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/domain.hpp"
 #include "table/light.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

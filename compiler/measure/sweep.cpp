@@ -11,14 +11,14 @@
 #include "core/parallel.hpp"
 #include "look/image_similarity.hpp"
 #include "measure/block_match.hpp"
-#include "measure/family_probe.hpp"
 #include "measure/joint_match.hpp"
 #include "measure/picture_taker.hpp"
+#include "measure/probe.hpp"
 #include "measure/sweep_options.hpp"
 #include "measure/target_pictures.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/domain.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "measure/family_probe.hpp"
 #include "measure/objective.hpp"
 #include "measure/probe.hpp"
 

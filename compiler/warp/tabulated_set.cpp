@@ -1,5 +1,3 @@
-#include "warp/tabulated_set.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "texture/image_reader.hpp"
 #include "warp/image_texels.hpp"
 #include "warp/quadrature.hpp"
+#include "warp/texture_material.hpp"
 
 namespace remap {
 namespace {

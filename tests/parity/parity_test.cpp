@@ -13,7 +13,7 @@
 
 #include "core/files.hpp"
 #include "emit/emit.hpp"
-#include "fit/network/mlp.hpp"
+#include "fit/network/fit_network.hpp"
 #include "fit/svr/svr.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"

@@ -1,5 +1,3 @@
-#include "fit/network/material_network.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "fit/network/fit_network.hpp"
 #include "remap/version.hpp"
 #include "table/regression.hpp"
 #include "table/table.hpp"

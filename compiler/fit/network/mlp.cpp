@@ -1,9 +1,8 @@
-#include "fit/network/mlp.hpp"
-
 #include <map>
 #include <string>
 
 #include "core/number_text.hpp"
+#include "fit/network/fit_network.hpp"
 
 namespace remap {
 namespace {

@@ -1,5 +1,5 @@
 // This file evaluates a fully connected network on many samples, with gradient and Jacobian by
-// backpropagation, and has the optimisers of network_training.hpp. Each of them runs one training from one
+// backpropagation, and has the optimisers of network_training.cpp. Each of them runs one training from one
 // set of initial parameters. Among the files about networks, only network_optimisers.cpp uses Ceres.
 #pragma once
 

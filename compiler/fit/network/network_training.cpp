@@ -1,5 +1,3 @@
-#include "fit/network/network_training.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "fit/network/fit_network.hpp"
 #include "fit/network/network_optimisers.hpp"
 #include "table/regression.hpp"
 

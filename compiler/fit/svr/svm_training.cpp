@@ -1,6 +1,4 @@
 // This file converts samples to libsvm's data structures, trains, and converts the model to Gaussians.
-#include "fit/svr/svm_training.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <libsvm/svm.h>
 
 #include "core/errors.hpp"
+#include "fit/svr/svr.hpp"
 
 namespace remap {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "fit/svr/svr_search.hpp"
 
 namespace remap {
 namespace {

@@ -16,7 +16,6 @@
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
 #include "support/campaign.hpp"
-#include "table/domain.hpp"
 #include "table/light.hpp"
 #include "table/regression.hpp"
 

@@ -6,7 +6,6 @@
 #include "compiler/fit/made_table.hpp"
 #include "fit/fit_table.hpp"
 #include "lower/fit_file.hpp"
-#include "table/domain.hpp"
 #include "table/regression.hpp"
 
 using namespace remap;

@@ -1,7 +1,5 @@
 // This file tests the kind `mlp`: errors on unseen rows of the published table, what its method records,
 // determinism.
-#include "fit/network/mlp.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -9,11 +7,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "fit/network/fit_network.hpp"
 #include "lower/evaluate.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
-#include "table/domain.hpp"
 #include "table/regression.hpp"
 #include "table/table.hpp"
 

@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
-#include "table/domain.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 using namespace made_table;
