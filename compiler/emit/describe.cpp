@@ -253,7 +253,7 @@ HeaderData describe(const WarpMapFit& fit) {
   data.title = title_of(data.source, data.target);
   data.provenance = provenance(fit);
   data.golden = golden_values(fit.warp);
-  data.code = WarpHeader{packed(fit.warp), fit.warp.table.entries, fit.copy_rms_error};
+  data.code = fit;
   return data;
 }
 

@@ -10,6 +10,7 @@
 #include "emit/languages.hpp"
 #include "formula/text_template.hpp"
 #include "reference/workflow_conversion.hpp"
+#include "stages/packed_warp.hpp"
 
 namespace remap {
 namespace {
@@ -310,8 +311,8 @@ MaterialCode material_code(const WorkflowConversion& conversion) {
   return code;
 }
 
-MaterialCode material_code(const WarpHeader& header) {
-  const PackedWarp& warp = header.warp;
+MaterialCode material_code(const WarpMapFit& fit) {
+  const PackedWarp warp = packed(fit.warp);
   const auto table = [&](const auto& entries) { return table_of(warp, entries); };
   const std::string dimension = std::to_string(warp.dimension);
   MaterialCode code;
@@ -322,12 +323,12 @@ MaterialCode material_code(const WarpHeader& header) {
       "spread, "
       "-1 where unknown.\n"
       "static constexpr double kCopyRmsError = " +
-      double_literal(header.copy_rms_error) + ";\n";
+      double_literal(fit.copy_rms_error) + ";\n";
   code.functions =
       code_files({"bits", "floats", "rows", "appearance", warp.is_separable() ? "separable" : "quadratic",
                   warp.is_blended() ? "blended" : "copied", "warp_block"}) +
       "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates_of(warp) +
-      std::visit(table, header.entries);
+      std::visit(table, fit.warp.table.entries);
   code.block = "kWarpBlock";
   code.call = "warp_block<" + dimension + ">(detail::kCoordinates, detail::table(), from, to)";
   code.within = "1e-4f";
