@@ -59,9 +59,8 @@ class Builder {
       std::vector<const ManifestItem*> ready, later;
       for (const ManifestItem* item : waiting) {
         const std::vector<std::string> inputs = inputs_of(*item);
-        const bool waits = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
-          return std::any_of(waiting.begin(), waiting.end(),
-                             [&](const ManifestItem* other) { return other->id == input; });
+        const bool waits = std::ranges::any_of(inputs, [&](const std::string& input) {
+          return std::ranges::any_of(waiting, [&](const ManifestItem* other) { return other->id == input; });
         });
         const auto lost =
             std::ranges::find_if(inputs, [&](const auto& input) { return failures_.contains(input); });

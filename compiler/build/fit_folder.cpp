@@ -113,9 +113,9 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
     loaded.add(std::move(fit));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
-  std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
-  std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
-  std::sort(loaded.workflows.begin(), loaded.workflows.end(), by_id);
+  std::ranges::sort(loaded.fits, by_id);
+  std::ranges::sort(loaded.warps, by_id);
+  std::ranges::sort(loaded.workflows, by_id);
   loaded.reach = current_reach(folder);
   return loaded;
 }

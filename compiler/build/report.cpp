@@ -111,8 +111,8 @@ std::string uncompared_lines(const std::vector<Fit>& fits) {
 
 std::string mark_text(const FitFolder& folder) {
   const std::size_t all = folder.fits.size() + folder.workflows.size() + folder.warps.size();
-  const auto marked = std::count_if(folder.fits.begin(), folder.fits.end(),
-                                    [](const Fit& fit) { return !trust_warning(fit).empty(); });
+  const auto marked =
+      std::ranges::count_if(folder.fits, [](const Fit& fit) { return !trust_warning(fit).empty(); });
   return "\n**(!)** marks " + std::to_string(marked) + " of " + std::to_string(all) +
          " converters: an image error above " + percent(kLargestTrustedError) +
          ", or pictures that were never compared\n(published formulas, and what is derived from them). "
@@ -198,7 +198,7 @@ std::string trust_warning(const Fit& fit) {
 std::vector<const Fit*> by_trust(const std::vector<Fit>& fits) {
   std::vector<const Fit*> sorted;
   for (const Fit& fit : fits) sorted.push_back(&fit);
-  std::sort(sorted.begin(), sorted.end(), [](const Fit* a, const Fit* b) {
+  std::ranges::sort(sorted, [](const Fit* a, const Fit* b) {
     return std::pair(image_error(*a), a->id) < std::pair(image_error(*b), b->id);
   });
   return sorted;

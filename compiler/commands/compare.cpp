@@ -61,8 +61,8 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
 
 // Returns the fit's id, or its file if another fit has the same id.
 std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
-  const auto same = std::count_if(all.begin(), all.end(),
-                                  [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
+  const auto same =
+      std::ranges::count_if(all, [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
   return same > 1 ? one.file : one.fit.id;
 }
 

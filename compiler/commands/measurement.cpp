@@ -61,7 +61,7 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
 
 Reader<std::string> objective_name() {
   return {[](const std::string& option, const std::string& word) {
-            if (std::find(kObjectives.begin(), kObjectives.end(), word) == kObjectives.end())
+            if (std::ranges::find(kObjectives, word) == kObjectives.end())
               fail_unknown(option, "objective", word, kObjectives);
             return word;
           },

@@ -228,7 +228,7 @@ double quantile(std::vector<double>* values, double share) {
   if (values->empty()) return 0.0;
   const double last = static_cast<double>(values->size());
   const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(share * last)));
-  std::sort(values->begin(), values->end());
+  std::ranges::sort(*values);
   return (*values)[rank - 1];
 }
 

@@ -206,7 +206,7 @@ Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
 }
 
 bool JointMatcher::apart(const Match& a, const Match& b) const {
-  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+  return std::ranges::any_of(unknowns_, [&](const Unknown& unknown) {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
@@ -215,7 +215,7 @@ bool JointMatcher::apart(const Match& a, const Match& b) const {
 }
 
 bool JointMatcher::at_bound(const Match& match) const {
-  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+  return std::ranges::any_of(unknowns_, [&](const Unknown& unknown) {
     const double value = target_.value(match.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
     const bool may_be_least =

@@ -59,16 +59,15 @@ std::vector<ParameterDescription> varied_of(const MaterialSampleOptions& options
   require_roleless(source, options.varied);
   std::vector<ParameterDescription> all;
   for (ParameterDescription parameter : source.parameters) {
-    const bool named =
-        std::find(options.varied.begin(), options.varied.end(), parameter.name) != options.varied.end();
+    const bool named = std::ranges::find(options.varied, parameter.name) != options.varied.end();
     if (parameter.role == ParameterRole::kOther && !named) continue;
     parameter.range = range_of(options, source, parameter);
     parameter.grey = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
     all.push_back(std::move(parameter));
   }
   for (const auto& given : options.ranges)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const ParameterDescription& varied) { return varied.name == given.first; }))
+    if (std::ranges::none_of(all,
+                             [&](const ParameterDescription& varied) { return varied.name == given.first; }))
       throw usage_error(source.name + ": " + given.first + " has a range but does not vary (add --vary " +
                         given.first + ")");
   return all;
@@ -212,8 +211,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
               {"source_roughness", std::string(encoding_name(matching.source.roughness))}};
   ProbedModel target = matching.target;  // without matched parameters; the remaining ones are fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
-    return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
-           options.searched.end();
+    return std::ranges::find(options.searched, parameter.name) != options.searched.end();
   });
   add_noise("source", renderer, options.source, &comments);
   add_side("target", target, &comments);
@@ -228,8 +226,8 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments.emplace_back("seed", std::to_string(options.seed));
   ModelDescription source = matching.source;  // without varying parameters
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
-    return std::any_of(matching.varied.begin(), matching.varied.end(),
-                       [&](const ParameterDescription& v) { return v.name == parameter.name; });
+    return std::ranges::any_of(matching.varied,
+                               [&](const ParameterDescription& v) { return v.name == parameter.name; });
   });
   if (const std::string fixed = fixed_text(source); !fixed.empty())
     comments.emplace_back("source_fixed", fixed);

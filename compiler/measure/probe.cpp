@@ -28,7 +28,7 @@ constexpr int kMostHalvings = 20;
 // renderers.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
-double brightest(const Radiances& picture) { return *std::max_element(picture.begin(), picture.end()); }
+double brightest(const Radiances& picture) { return *std::ranges::max_element(picture); }
 
 // Returns the largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
 double line_deviation(const Radiances& low, const Radiances& high, double t, const Radiances& found) {
@@ -41,7 +41,7 @@ double line_deviation(const Radiances& low, const Radiances& high, double t, con
 }
 
 bool is_black(const Radiances& picture) {
-  return std::all_of(picture.begin(), picture.end(), [](float value) { return value == 0.0f; });
+  return std::ranges::all_of(picture, [](float value) { return value == 0.0f; });
 }
 
 // A WidthProbe renders a model at one width, at the ends and in the middle of its specular range.
@@ -92,8 +92,7 @@ class SpecularProbe {
   // begin there, because it is then unknown.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
-    return std::all_of(widths_.begin(), widths_.end(),
-                       [](const WidthProbe& probe) { return is_black(probe.low); });
+    return std::ranges::all_of(widths_, [](const WidthProbe& probe) { return is_black(probe.low); });
   }
 
   double affine_deviation() const {

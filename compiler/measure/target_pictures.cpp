@@ -144,7 +144,7 @@ std::vector<RoleValues> TargetGrid::minima(const std::vector<float>& source,
   std::vector<std::size_t> found;
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (is_minimum(p)) found.push_back(p);
-  std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return losses[a] < losses[b]; });
+  std::ranges::sort(found, [&](std::size_t a, std::size_t b) { return losses[a] < losses[b]; });
   std::vector<RoleValues> starts;
   for (std::size_t i = 0; i < std::min(found.size(), kMostMinima); ++i) starts.push_back(points_[found[i]]);
   return starts;

@@ -160,9 +160,8 @@ void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
 
 bool has_value_beyond(const SpecularMaterial& material) {
   const auto is_beyond = [](float value) { return !(value >= 0.0f && value <= 1.0f); };
-  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_beyond) ||
-         std::any_of(material.specular.begin(), material.specular.end(), is_beyond) ||
-         is_beyond(material.width);
+  return std::ranges::any_of(material.diffuse, is_beyond) ||
+         std::ranges::any_of(material.specular, is_beyond) || is_beyond(material.width);
 }
 
 float width_of(const code::Texel& texel, const code::Conventions& use) {

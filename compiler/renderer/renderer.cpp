@@ -74,8 +74,8 @@ Noise measure(const Renderer& renderer, const ModelDescription& model, const Lig
 std::string_view role_word(ParameterRole role) { return kRoleWords[static_cast<std::size_t>(role)]; }
 
 bool ModelDescription::has(ParameterRole role) const {
-  return std::any_of(parameters.begin(), parameters.end(),
-                     [&](const ParameterDescription& description) { return description.role == role; });
+  return std::ranges::any_of(
+      parameters, [&](const ParameterDescription& description) { return description.role == role; });
 }
 
 const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
@@ -136,7 +136,7 @@ void require_material(const Material& material, const ModelDescription& model) {
   std::vector<std::string> names;
   for (const ParameterDescription& parameter : model.parameters) names.push_back(parameter.name);
   for (const auto& entry : material.parameters)
-    if (std::find(names.begin(), names.end(), entry.first) == names.end())
+    if (std::ranges::find(names, entry.first) == names.end())
       fail(model, "has no parameter " + entry.first + suggestion(entry.first, names));
   for (const ParameterDescription& parameter : model.parameters) {
     if (const auto map = material.maps.find(parameter.name); map != material.maps.end()) {

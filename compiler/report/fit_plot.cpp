@@ -155,7 +155,7 @@ class Plot {
     }
     out_ << "$shown << EOD\n";
     for (const TableRow& row : rows_)
-      if (std::find(shown_.begin(), shown_.end(), row.alpha1) != shown_.end())
+      if (std::ranges::find(shown_, row.alpha1) != shown_.end())
         out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << ' ' << at_limit(row)
              << '\n';
     out_ << "EOD\n";

@@ -59,7 +59,7 @@ Parameters shipped(const EnvironmentsOptions& options, const Fit& fit) {
 }
 
 const Fit* find_pair(const std::vector<Fit>& fits, const StudyPair& pair) {
-  const auto fit = std::find_if(fits.begin(), fits.end(), [&](const Fit& candidate) {
+  const auto fit = std::ranges::find_if(fits, [&](const Fit& candidate) {
     return candidate.source.model == pair.source && candidate.target.model == pair.target;
   });
   return fit == fits.end() ? nullptr : &*fit;

@@ -43,7 +43,7 @@ std::vector<StudyPair> chosen_pairs(const EnvironmentsCommand& command) {
 EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = command.study;
   options.pairs = chosen_pairs(command);
-  std::sort(options.alphas.begin(), options.alphas.end());
+  std::ranges::sort(options.alphas);
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
   options.environments = read_environments(command.shared);
   if (const auto folder = fit_folder_of(command.shared); !folder.empty()) options.fits = load_fits(folder);

@@ -62,7 +62,7 @@ void add_light(const Comments& comments, bool accept_light, Findings& findings) 
 }
 
 Findings sorted(Findings findings) {
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+  std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
     return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
   });
   return findings;
@@ -240,8 +240,7 @@ void check_row_count(const MaterialTable& table, Findings& findings) {
 void check_columns(const MaterialTable& table, Findings& findings) {
   for (std::size_t i = 0; i < table.source_columns.size(); ++i) {
     const double first = table.rows.front().source[i];
-    if (std::all_of(table.rows.begin(), table.rows.end(),
-                    [&](const NamedRow& row) { return row.source[i] == first; }))
+    if (std::ranges::all_of(table.rows, [&](const NamedRow& row) { return row.source[i] == first; }))
       findings.push_back({Severity::kWarning, "gap", 0,
                           table.source_columns[i] + " is " + number_text(first) +
                               " in every row; a fit cannot learn its influence"});

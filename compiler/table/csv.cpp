@@ -30,7 +30,7 @@ char detect_delimiter(std::string_view header) {
   char best = ',';
   std::ptrdiff_t most = 0;
   for (const char candidate : {',', '\t', ';'}) {
-    const std::ptrdiff_t count = std::count(header.begin(), header.end(), candidate);
+    const std::ptrdiff_t count = std::ranges::count(header, candidate);
     if (count > most) {
       best = candidate;
       most = count;

@@ -189,7 +189,7 @@ ErrorFigures error_figures(std::vector<double> errors) {
     error = std::fabs(error);
     sum += error * error;
   }
-  std::sort(errors.begin(), errors.end());
+  std::ranges::sort(errors);
   const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size())));
   return {std::sqrt(sum / static_cast<double>(errors.size())), errors[rank - 1], errors.back()};
 }
@@ -207,7 +207,7 @@ std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t c
   if (rows.size() <= count) return rows;
   std::vector<std::size_t> order = seeded_order(rows.size(), seed);
   order.resize(count);
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<TableRow> drawn;
   for (const std::size_t i : order) drawn.push_back(rows[i]);
   return drawn;
@@ -224,7 +224,7 @@ void require_variety(const std::vector<TableRow>& rows, const std::string& kind)
                       std::to_string(kFewestRows) + " are required)");
   const auto require = [&](double TableRow::*input, const std::string& name) {
     const double first = rows.front().*input;
-    if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
+    if (std::ranges::all_of(rows, [&](const TableRow& row) { return row.*input == first; }))
       throw input_error(kind + ": " + name + " is " + number_text(first) +
                         " in every row (at least two values are required)");
   };

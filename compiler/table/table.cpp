@@ -198,8 +198,7 @@ ColumnMap column_map(const std::string& text) {
   for (const CsvCell& cell : split_csv_line(text, ',')) {
     const std::size_t equals = cell.text.find('=');
     const std::string own(cell.text.substr(0, equals));
-    if (equals == std::string_view::npos ||
-        std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
+    if (equals == std::string_view::npos || std::ranges::find(kColumns, own) == kColumns.end())
       throw usage_error("--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
                         suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));

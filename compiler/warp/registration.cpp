@@ -40,8 +40,7 @@ double search_spacing(const Points& positions) {
   double spacing = extent / kCoarsest;
   for (int step = 0; step < kSearchSteps; ++step) {
     const std::vector<int> counts = count_texels(positions, BinGrid(positions, spacing));
-    const auto occupied =
-        std::count_if(counts.begin(), counts.end(), [](int count) { return count >= kLeastTexels; });
+    const auto occupied = std::ranges::count_if(counts, [](int count) { return count >= kLeastTexels; });
     const double ratio = static_cast<double>(std::max<std::ptrdiff_t>(occupied, 1)) / kWantedPoints;
     if (std::abs(ratio - 1.0) < 0.08) break;
     spacing *= std::pow(ratio, 0.8 / static_cast<double>(positions.cols()));
@@ -191,7 +190,7 @@ Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<st
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
   // If the material has few texels, bins with fewer than kLeastTexels texels are used as well.
-  const bool is_sparse = *std::max_element(counts.begin(), counts.end()) < 4 * kLeastTexels;
+  const bool is_sparse = *std::ranges::max_element(counts) < 4 * kLeastTexels;
   const int least = is_sparse ? 1 : kLeastTexels;
 
   std::vector<int> point_of(grid.size(), -1);
@@ -216,7 +215,7 @@ Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<st
       if (bin >= 0 && point_of[static_cast<std::size_t>(bin)] >= 0)
         members.push_back(point_of[static_cast<std::size_t>(bin)]);
     }
-    std::sort(members.begin(), members.end());
+    std::ranges::sort(members);
     members.erase(std::unique(members.begin(), members.end()), members.end());
     if (members.empty()) members.push_back(nearest_point(result.points, centre_of(positions, texels)));
     result.strokes.push_back(std::move(members));

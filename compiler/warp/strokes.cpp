@@ -133,7 +133,7 @@ std::vector<ColorCount> frequencies(const Painting& painting) {
   std::vector<ColorCount> found;
   for (Color color = 0; color < kTransparent; ++color)
     if (counts[color] > 0) found.push_back({color, counts[color]});
-  std::stable_sort(found.begin(), found.end(), is_more_frequent);
+  std::ranges::stable_sort(found, is_more_frequent);
   return found;
 }
 
@@ -153,7 +153,7 @@ std::vector<ColorCount> clusters_of(const std::vector<ColorCount>& colors, std::
     }
     if (cluster.texels >= least_texels) clusters.push_back(cluster);
   }
-  std::stable_sort(clusters.begin(), clusters.end(), is_more_frequent);
+  std::ranges::stable_sort(clusters, is_more_frequent);
   return clusters;
 }
 
@@ -230,7 +230,7 @@ bool is_rim(const std::vector<ColorCount>& clusters, std::size_t index, const Su
   const Color color = clusters[index].color, background = clusters.front().color;
   if (distance(color, background) < kShadeRadius && around.beside > 0.25 * around.count) return true;
   if (around.at_rim < 0.75 * around.count) return false;
-  const auto most = std::max_element(around.rims.begin(), around.rims.end()) - around.rims.begin();
+  const auto most = std::ranges::max_element(around.rims) - around.rims.begin();
   return distance_to_blends(color, background, clusters[static_cast<std::size_t>(most)].color) < kBlendRadius;
 }
 
@@ -262,8 +262,7 @@ std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, co
 // Returns the strokes of an image, in the order of their first texels.
 std::vector<ColorStroke> strokes_in(const Painting& painting, const MaterialRef& material) {
   const auto count = static_cast<double>(painting.texels.size());
-  const auto transparent =
-      static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
+  const auto transparent = static_cast<double>(std::ranges::count(painting.texels, kTransparent));
   const std::size_t first_stroke = transparent >= 0.01 * count ? 0 : 1;
   const std::vector<ColorCount> colors = frequencies(painting);
   const std::size_t least = std::max(kLeastColorTexels, static_cast<std::size_t>(kLeastColorShare * count));
@@ -279,15 +278,16 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MaterialRef&
     strokes[labels[i]].texels.push_back(static_cast<std::uint32_t>(i));
     ++marked;
   }
-  const auto blends = static_cast<double>(std::count(labels.begin(), labels.end(), kNoCluster)) - transparent;
+  const auto blends = static_cast<double>(std::ranges::count(labels, kNoCluster)) - transparent;
   if (blends > kMostBlends * count)
     fail_not_flat(painting, percent(blends / count) + " of the texels are not in one of the flat colors");
   for (std::size_t c = 0; c < kept.size(); ++c) strokes[c].color = kept[c].color;
   std::erase_if(strokes, [](const ColorStroke& stroke) { return stroke.texels.empty(); });
   if (strokes.empty()) fail_not_flat(painting, "contains no stroke");
   require_background(painting.path, marked, material);
-  std::sort(strokes.begin(), strokes.end(),
-            [](const ColorStroke& a, const ColorStroke& b) { return a.texels.front() < b.texels.front(); });
+  std::ranges::sort(strokes, [](const ColorStroke& a, const ColorStroke& b) {
+    return a.texels.front() < b.texels.front();
+  });
   return strokes;
 }
 

@@ -144,8 +144,8 @@ double largest_of(PixelType type) {
 }
 
 void read_index_map(const fs::path& folder, TabulatedMaterial& material) {
-  const auto name = std::find_if(kIndexMaps.begin(), kIndexMaps.end(),
-                                 [&](const char* file) { return fs::is_regular_file(folder / file); });
+  const auto name =
+      std::ranges::find_if(kIndexMaps, [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
     throw input_error(folder.string() + ": " + material.table.filename().string() +
                       " requires a map of its entries (add index.exr, index.png or index.tif)");

@@ -80,7 +80,7 @@ double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
     const double distance = (images.rowwise() - goal.row(j)).rowwise().squaredNorm().minCoeff();
     used[static_cast<std::size_t>(j)] = distance < sets.target.spacing * sets.target.spacing ? 1 : 0;
   }
-  return static_cast<double>(std::count(used.begin(), used.end(), 1)) / static_cast<double>(used.size());
+  return static_cast<double>(std::ranges::count(used, 1)) / static_cast<double>(used.size());
 }
 
 // Returns the largest overlap in either material.

@@ -154,7 +154,7 @@ std::optional<std::string> complaint_of(const Json& answer, const std::string& c
 }  // namespace
 
 std::string picture_fault(const Image& image) {
-  const auto found = std::max_element(image.values.begin(), image.values.end());
+  const auto found = std::ranges::max_element(image.values);
   const float least = found != image.values.end() && *found > 0.0f ? -kNegativeShare * *found : 0.0f;
   const auto channels = static_cast<std::size_t>(image.channels),
              width = static_cast<std::size_t>(image.width);

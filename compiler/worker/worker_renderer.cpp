@@ -130,7 +130,7 @@ std::vector<std::string> PictureCache::other_versions() const {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(worker_folder_, ignored))
     if (entry.path().filename() != folder_.filename()) names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 

@@ -23,7 +23,7 @@ struct MaterialRow {
 
 std::size_t place_of(const MaterialTable& table, const std::vector<std::string>& columns,
                      const std::string& name) {
-  const auto found = std::find(columns.begin(), columns.end(), name);
+  const auto found = std::ranges::find(columns, name);
   if (found == columns.end())
     throw input_error(table.name + ": missing column " + name +
                       " (use a table of remapc sample from a metallic to a specular model)");

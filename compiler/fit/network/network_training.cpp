@@ -53,10 +53,9 @@ void require_sound(const Samples& samples, const TrainingOptions& options) {
     throw input_error("network: too few rows (" + std::to_string(count) + ", at least " +
                       std::to_string(kFewestRows) + " are required)");
   const auto finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(samples.inputs.begin(), samples.inputs.end(), finite) ||
-      !std::all_of(samples.outputs.begin(), samples.outputs.end(), finite))
+  if (!std::ranges::all_of(samples.inputs, finite) || !std::ranges::all_of(samples.outputs, finite))
     throw input_error("network: a row contains a number that is not finite");
-  if (std::find(options.hidden.begin(), options.hidden.end(), std::size_t{0}) != options.hidden.end())
+  if (std::ranges::find(options.hidden, std::size_t{0}) != options.hidden.end())
     throw usage_error("network: every hidden layer must have at least 1 unit");
   if (options.starts == 0) throw usage_error("network: at least 1 start is required");
   if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))

@@ -110,8 +110,7 @@ std::optional<KernelExpansion> train_expansion(const Samples& samples, const Svr
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };
-  if (!finite(expansion.bias) || !std::all_of(expansion.weights.begin(), expansion.weights.end(), finite))
-    return std::nullopt;
+  if (!finite(expansion.bias) || !std::ranges::all_of(expansion.weights, finite)) return std::nullopt;
   return expansion;
 }
 
