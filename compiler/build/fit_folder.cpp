@@ -127,10 +127,9 @@ AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder
   if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
     return load_any_fit(path);
   if (!std::filesystem::is_directory(folder) && folder == default_fit_folder())
-    throw usage_error(
-        name + ": is not a file, and the folder " + folder.string() +
-        ", where remapc looks for fits, does not exist here (run remapc in your clone of remap, "
-        "or add --fits CLONE/fits)");
+    throw usage_error(name + ": is not a file, and the folder " + folder.string() +
+                      ", where remapc looks for fits, does not exist here (run remapc in your clone of "
+                      "remap, or add --fits CLONE/fits)");
   std::vector<std::string> known;
   if (std::filesystem::is_directory(folder)) {
     const FitFolder loaded = load_fit_folder(folder);

@@ -161,8 +161,7 @@ void add_compare_command(Command& app) {
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(
       "max is the largest error over all usable rows. `remapc fit --model auto` prints the same table for "
-      "rows "
-      "that were held out, with the errors of pictures.\n\n"
+      "rows that were held out, with the errors of pictures.\n\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
 }
 

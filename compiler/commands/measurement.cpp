@@ -83,10 +83,9 @@ void MeasurementOptions::add_table_options(Command& app, const std::string& tabl
 
 void MeasurementOptions::add_picture_options(Command& app) {
   app.option_group("Pictures and how they are compared");
-  app.add_option(
-         "--objective NAME", objective, objective_name(),
-         "natural: light at 65 degrees, relative weights, and the mean; natural-1: light at 60 degrees, "
-         "relative weights; paper: headlight, uniform weights")
+  app.add_option("--objective NAME", objective, objective_name(),
+                 "natural: light at 65 degrees, relative weights, and the mean; natural-1: light at 60 "
+                 "degrees, relative weights; paper: headlight, uniform weights")
       ->default_text("natural, now natural-2");
   app.add_option("--light LIGHTS", lights, list_of(light_angle()),
                  "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");

@@ -53,8 +53,7 @@ std::string provenance(const Fit& fit) {
     text += "Pictures of spheres differ by " + fixed(fit.pictures->rmse, 1) +
             " % of white on average (root mean square of display values), by " +
             fixed(fit.copied_pictures->rmse, 1) +
-            " %\nwhere the numbers are copied: lights and materials that had no "
-            "part in the fit.\n";
+            " %\nwhere the numbers are copied: lights and materials that had no part in the fit.\n";
   if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
   if (!comment("objective").empty())
     text += "objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +

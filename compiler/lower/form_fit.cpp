@@ -49,9 +49,7 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   for (const FormSample& sample : samples)
     if (counts(sample)) kept.push_back(&sample);
   if (kept.size() < terms.size())
-    throw numeric_error("form: " + std::to_string(kept.size()) +
-                        " rows below the limits do not "
-                        "determine " +
+    throw numeric_error("form: " + std::to_string(kept.size()) + " rows below the limits do not determine " +
                         std::to_string(terms.size()) + " numbers");
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(kept.size()), static_cast<Eigen::Index>(terms.size()));
   Eigen::VectorXd wanted(matrix.rows());

@@ -190,8 +190,7 @@ void require_valid(const WorkflowConversion& conversion, const std::string& cont
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
     throw input_error(context +
-                      ": formula khronos needs a dielectric F0 above 0 and scaled diffuse "
-                      "on both sides");
+                      ": formula khronos needs a dielectric F0 above 0 and scaled diffuse on both sides");
 }
 
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion) {

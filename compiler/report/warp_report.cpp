@@ -209,8 +209,7 @@ std::string report_html(const WarpReport& report) {
     html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return html +
          "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker light "
-         "from "
-         "the lower right and uniform surroundings. Highlights are as wide as the material's lobe.</p>\n"
+         "from the lower right and uniform surroundings. Highlights are as wide as the material's lobe.</p>\n"
          "</body>\n</html>\n";
 }
 

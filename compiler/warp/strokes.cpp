@@ -240,10 +240,9 @@ struct ColorStroke {
 };
 
 [[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
-  throw input_error(
-      painting.path.string() + ": " + what +
-      " (paint strokes in a few flat colors with a hard brush, on a plain black, white or transparent "
-      "background)");
+  throw input_error(painting.path.string() + ": " + what +
+                    " (paint strokes in a few flat colors with a hard brush, on a plain black, white or "
+                    "transparent background)");
 }
 
 // Removes the clusters that are edges of strokes. `first_stroke` is the first cluster after the background.
