@@ -21,7 +21,7 @@
 #include "lower/chain.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
-#include "measure/material_sample.hpp"
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "renderer/renderer.hpp"
 #include "table/table.hpp"

@@ -15,7 +15,6 @@
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "core/report_text.hpp"
-#include "emit/languages.hpp"
 
 namespace remap {
 namespace {

@@ -20,11 +20,10 @@
 #include "fit/network/fit_network.hpp"
 #include "fit/parametric/parametric.hpp"
 #include "lower/fit_file.hpp"
-#include "lower/limits.hpp"
 #include "lower/lower.hpp"
 #include "report/fit_plot.hpp"
-#include "table/light.hpp"
 #include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

@@ -72,7 +72,7 @@ struct TableInput {
 
 Reader<ColumnMap> columns_reader();
 
-// Adds --accept-light. With it, a difference of light that light_remark() (table/light.hpp) would report as
+// Adds --accept-light. With it, a difference of light that light_remark() (table/table.hpp) would report as
 // an error is accepted.
 void add_accept_light_flag(Command& app, bool& accept_light);
 

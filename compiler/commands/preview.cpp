@@ -19,7 +19,6 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "look/image.hpp"
-#include "report/set_preview.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "worker/renderer_set.hpp"
 

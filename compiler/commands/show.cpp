@@ -15,8 +15,8 @@
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
-#include "table/light.hpp"
 #include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

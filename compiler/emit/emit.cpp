@@ -9,7 +9,6 @@
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "emit/header_data.hpp"
-#include "emit/languages.hpp"
 #include "formula/text_template.hpp"
 #include "materials/description.hpp"
 #include "remap/version.hpp"

@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include "core/number_text.hpp"
+#include "emit/emit.hpp"
 #include "emit/header_data.hpp"
-#include "emit/languages.hpp"
 #include "formula/text_template.hpp"
 #include "reference/workflow_conversion.hpp"
 #include "stages/packed_warp.hpp"

@@ -1,5 +1,3 @@
-#include "emit/languages.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,6 +5,7 @@
 
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
+#include "emit/emit.hpp"
 #include "emit/header_data.hpp"
 #include "formula/graph_writer.hpp"
 #include "formula/text_template.hpp"

@@ -25,7 +25,7 @@ struct FitOptions {
   std::string form;        // form of the parametric kind; if empty, the paper's
   TrainingOptions mlp;     // its seed and jobs are replaced by those above
   double held_out_fraction = 0.2;
-  bool accept_light = false;  // see is_wrong_light() (table/light.hpp)
+  bool accept_light = false;  // see is_wrong_light() (table/table.hpp)
 };
 
 // These are the regressions that a user can choose. If the user chooses none, forms are compared

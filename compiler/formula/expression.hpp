@@ -1,4 +1,4 @@
-// This file holds formulas as statements, which can be written in every language. emit/languages.hpp
+// This file holds formulas as statements, which can be written in every language. emit/emit.hpp
 // makes the formulas of converters, materials/description.hpp those of whole materials.
 #pragma once
 

@@ -2,7 +2,6 @@
 
 #include "core/errors.hpp"
 #include "lower/fit_file.hpp"
-#include "lower/limits.hpp"
 
 namespace remap {
 namespace {

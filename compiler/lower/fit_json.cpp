@@ -8,7 +8,6 @@
 #include "lower/fit_fields.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
-#include "lower/limits.hpp"
 #include "remap/error.hpp"
 #include "stages/warp_json.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "measure/sweep_options.hpp"
 #include "measure/target_pictures.hpp"
-#include "table/light.hpp"
 #include "table/table.hpp"
 
 namespace remap {

@@ -1,10 +1,9 @@
-#include "measure/joint_match.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
 #include "measure/function_cost.hpp"
+#include "measure/match.hpp"
 #include "measure/objective.hpp"
 
 namespace remap {

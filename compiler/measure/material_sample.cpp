@@ -1,5 +1,3 @@
-#include "measure/material_sample.hpp"
-
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -8,12 +6,13 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
-#include "measure/joint_match.hpp"
+#include "measure/match.hpp"
+#include "measure/sweep.hpp"
 #include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/light.hpp"
 #include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/parallel.hpp"
 #include "look/image_similarity.hpp"
 #include "measure/block_match.hpp"
-#include "measure/joint_match.hpp"
+#include "measure/match.hpp"
 #include "measure/picture_taker.hpp"
 #include "measure/probe.hpp"
 #include "measure/sweep_options.hpp"

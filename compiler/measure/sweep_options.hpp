@@ -14,7 +14,6 @@
 #include "measure/picture_taker.hpp"
 #include "measure/probe.hpp"
 #include "renderer/renderer.hpp"
-#include "table/light.hpp"
 #include "table/table.hpp"
 
 namespace remap {
@@ -52,7 +51,7 @@ struct PairOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
-  bool accept_light = false;  // continue even if require_light() (table/light.hpp) would throw
+  bool accept_light = false;  // continue even if require_light() (table/table.hpp) would throw
 };
 
 // A SweepOptions holds the settings of a sweep. Every field is recorded in the table's comments.

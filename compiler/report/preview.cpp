@@ -18,7 +18,7 @@
 #include "measure/sweep.hpp"
 #include "measure/sweep_options.hpp"
 #include "report/contact_sheet.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/set_preview.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -11,6 +9,7 @@
 #include "core/report_text.hpp"
 #include "look/scene.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/preview.hpp"
 #include "texremap/report/job_looks.hpp"
 
 namespace remap {

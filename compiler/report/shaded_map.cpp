@@ -1,11 +1,10 @@
-#include "report/shaded_map.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "look/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/warp_report.hpp"
 
 namespace remap {
 namespace {

@@ -10,7 +10,6 @@
 #include "core/files.hpp"
 #include "look/image.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/shaded_map.hpp"
 #include "warp/coordinates.hpp"
 
 namespace remap {

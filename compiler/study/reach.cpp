@@ -16,7 +16,7 @@
 #include "measure/sweep.hpp"
 #include "remap/version.hpp"
 #include "table/csv.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

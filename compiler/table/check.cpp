@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "warp/image_texels.hpp"
+#include "warp/texture_material.hpp"
 
 namespace remap {
 namespace {

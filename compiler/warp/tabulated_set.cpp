@@ -10,7 +10,6 @@
 #include "core/number_text.hpp"
 #include "table/csv.hpp"
 #include "texture/image_reader.hpp"
-#include "warp/image_texels.hpp"
 #include "warp/quadrature.hpp"
 #include "warp/texture_material.hpp"
 

@@ -13,7 +13,6 @@
 #include "remap/workflow.hpp"
 #include "sets/discovery.hpp"
 #include "texture/texture_set.hpp"
-#include "warp/image_texels.hpp"
 #include "warp/warp.hpp"
 
 namespace remap {

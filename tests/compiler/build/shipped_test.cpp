@@ -16,8 +16,8 @@
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
 #include "support/campaign.hpp"
-#include "table/light.hpp"
 #include "table/regression.hpp"
+#include "table/table.hpp"
 
 using namespace remap;
 
