@@ -92,7 +92,6 @@ struct SetPreviewOptions {
   int resolution = 440;                    // width and height of each ball, pixels
   int directions = 160;                    // samples of the light for each pixel, in the built-in renderer
   int external_directions = 128;           // in workers
-  std::size_t most_materials = 4;
   std::function<void(double share)> progress;  // called from any thread with the finished fraction, 0 to 1
 };
 

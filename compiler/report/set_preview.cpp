@@ -112,6 +112,8 @@ std::vector<float> render_external(const Renderer& renderer, const std::vector<M
   return radiance;
 }
 
+constexpr std::size_t kMostMaterials = 4;  // of a preview
+
 // A BallStudio renders the balls of a preview, each by its own renderer.
 class BallStudio {
  public:
@@ -193,7 +195,7 @@ std::vector<MaterialLooks> first_looks(const ConvertPlan& plan, const JobLooks& 
                                        const SetPreviewOptions& options) {
   std::vector<MaterialLooks> shown;
   for (const Job& job : plan.list.jobs)
-    for (MaterialLooks& material : looks.of(job, options.resolution, options.most_materials - shown.size()))
+    for (MaterialLooks& material : looks.of(job, options.resolution, kMostMaterials - shown.size()))
       shown.push_back(std::move(material));
   return shown;
 }

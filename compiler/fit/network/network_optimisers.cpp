@@ -288,9 +288,11 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
 OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& start,
                           const OptimiserSettings& settings, const StepReport& report) {
   constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // as in the paper
+  constexpr Index kBatch = 128;                                   // samples per step
+  constexpr double kLargestStep = 3e-3;
   const VectorXd decay = settings.weight_decay * weight_mask(shape);
   const Index count = samples.training_inputs.cols();
-  const Index batch_size = std::min<Index>(settings.batch, count);
+  const Index batch_size = std::min(kBatch, count);
   const Index batches = (count + batch_size - 1) / batch_size;
   const double steps = static_cast<double>(batches) * settings.iterations;
   std::vector<Index> order(static_cast<std::size_t>(count));
@@ -316,7 +318,7 @@ OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& sampl
       step += 1.0;
       const double done = step / steps;
       const double rate =
-          settings.step * std::min(1.0, done * 20.0) * (0.5 + 0.5 * std::cos(std::numbers::pi * done));
+          kLargestStep * std::min(1.0, done * 20.0) * (0.5 + 0.5 * std::cos(std::numbers::pi * done));
       first = kFirst * first + (1.0 - kFirst) * gradient;
       second = kSecond * second + (1.0 - kSecond) * gradient.cwiseAbs2();
       const double first_share = 1.0 - std::pow(kFirst, step), second_share = 1.0 - std::pow(kSecond, step);

@@ -77,8 +77,6 @@ struct OptimiserSettings {
   double weight_decay = 0.0;
   int iterations = 300;    // maximum
   int patience = 100;      // stops after so many iterations without a better validation error
-  int batch = 128;         // samples per step of run_adam
-  double step = 3e-3;      // largest step of run_adam
   std::uint64_t seed = 1;  // seed of the sample order of run_adam
 };
 
