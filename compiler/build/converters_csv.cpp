@@ -95,8 +95,8 @@ void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
 
 std::string origin(const Fit& fit) {
   std::string text = joined(fit.remarks, " ");
-  if (const auto inverse = fit.table.comments.find("inverse_of"); inverse != fit.table.comments.end())
-    text += "Inverse of " + inverse->second + ".";
+  if (const std::string inverse = fit.table.comment("inverse_of"); !inverse.empty())
+    text += "Inverse of " + inverse + ".";
   if (const auto steps = fit.method.find("against its steps one after another"); steps != fit.method.end())
     text += " Against its steps: " + steps->second + ".";
   return text;

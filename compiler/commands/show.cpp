@@ -27,10 +27,6 @@ struct ShowOptions {
   bool json = false;
 };
 
-std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
-}
-
 std::string figures_text(const ErrorFigures& f, const std::string& p99 = "99 %") {
   return "rms " + error_text(f.rms) + ", " + p99 + " " + error_text(f.p99) + ", max " + error_text(f.max);
 }

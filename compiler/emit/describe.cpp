@@ -43,10 +43,6 @@ std::string range_text(const std::string& name, const Range& range) {
 
 // Returns how much pictures differ, and where the numbers come from, for readers who do not know remap.
 std::string provenance(const Fit& fit) {
-  const auto comment = [&](const std::string& key) {
-    const auto found = fit.table.comments.find(key);
-    return found == fit.table.comments.end() ? std::string() : found->second;
-  };
   std::string text;
   for (const std::string& remark : fit.remarks) text += remark + "\n";
   if (fit.pictures)
@@ -55,10 +51,10 @@ std::string provenance(const Fit& fit) {
             fixed(fit.copied_pictures->rmse, 1) +
             " %\nwhere the numbers are copied: lights and materials that had no part in the fit.\n";
   if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
-  if (!comment("objective").empty())
-    text += "objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
-            comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
-            comment("renderer") + ".\n";
+  if (!fit.table.comment("objective").empty())
+    text += "objective " + fit.table.comment("objective") + " (lights " + fit.table.comment("lights") +
+            ", weighting " + fit.table.comment("weighting") + "), " + fit.table.comment("resolution") +
+            " pixels squared, by " + fit.table.comment("renderer") + ".\n";
   text += "Fit: " + kind_name(fit.mapping) + ", " + std::to_string(number_count(fit.converter->form)) +
           " numbers";
   if (fit.split.trained_rows + fit.split.held_out_rows != 0)

@@ -7,7 +7,7 @@
 #include "core/report_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
-#include "formula/graph_writer.hpp"
+#include "formula/expression.hpp"
 #include "formula/text_template.hpp"
 #include "remap/version.hpp"
 
@@ -80,10 +80,7 @@ struct Parts {
 
 // Returns a sentence about units and errors.
 std::string meaning_of(const Fit& fit) {
-  const auto side = [](const ModelSide& model) {
-    return model.model + " (" + std::string(encoding_name(model.roughness)) + ", " + model.specular + ")";
-  };
-  std::string text = side(fit.source) + " to " + side(fit.target) + ".";
+  std::string text = side_text(fit.source) + " to " + side_text(fit.target) + ".";
   if (fit.pictures)
     text += " Pictures differ by " + fixed(fit.pictures->rmse, 1) +
             " % of white, where numbers are copied by " + fixed(fit.copied_pictures->rmse, 1) + " %.";

@@ -28,10 +28,6 @@ double at(const Range& range, int i, int count) {
   return i + 1 == count ? range.max : range.min + (range.max - range.min) * i / (count - 1);
 }
 
-std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
-}
-
 std::string range_text(const Range& range) {
   return number_text(rounded_up(range.min, 4)) + " to " + number_text(rounded_up(range.max, 4));
 }

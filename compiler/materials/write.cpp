@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "core/number_text.hpp"
-#include "formula/graph_writer.hpp"
+#include "formula/expression.hpp"
 #include "formula/text_template.hpp"
 #include "materials/description.hpp"
 #include "remap/version.hpp"

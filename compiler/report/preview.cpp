@@ -25,18 +25,13 @@ namespace {
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
-std::string comment(const Fit& fit, const std::string& key) {
-  const auto found = fit.table.comments.find(key);
-  return found == fit.table.comments.end() ? "" : found->second;
-}
-
 // Returns one side of the fit, ready to be rendered. Its response converts between the fit's specular and the
 // model's own parameter.
 ProbedModel make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
                      double exposure, double diffuse) {
   const ParameterRoles roles =
-      recorded_roles(comment(fit, role + "_roughness_parameter"), comment(fit, role + "_specular"),
-                     comment(fit, role + "_fixed"));
+      recorded_roles(fit.table.comment(role + "_roughness_parameter"), fit.table.comment(role + "_specular"),
+                     fit.table.comment(role + "_fixed"));
   ProbedModel end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
   if (diffuse > 0.0 && !end.model.has(ParameterRole::kDiffuse))
     throw usage_error("--diffuse: " + side.model + " has no diffuse reflectance (remove this option)");
@@ -138,7 +133,7 @@ class LampStudio {
         options_(options),
         light_(light),
         source_(make_end(renderer, fit, "source", fit.source,
-                         parse_number(comment(fit, kLightScaleComment)).value_or(1.0), options.diffuse)),
+                         parse_number(fit.table.comment(kLightScaleComment)).value_or(1.0), options.diffuse)),
         target_(make_end(renderer, fit, "target", fit.target, 1.0, options.diffuse)) {}
 
   RowPictures operator()(const PreviewFigure& figure, const RowProgress& progress) const {

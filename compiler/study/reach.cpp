@@ -170,8 +170,7 @@ class FitStudy {
         widths_(taker_, probed(taker_, renderer, fit_.target.model, alphas_), kNarrowest * alphas_.min),
         speculars_(options.speculars.empty() ? Range{0.0, source_.linear_range().max}
                                              : options.speculars[index]) {
-    const auto scale = fit_.table.comments.find(kLightScaleComment);
-    if (scale != fit_.table.comments.end()) source_.exposure = parse_number(scale->second).value_or(1.0);
+    source_.exposure = parse_number(fit_.table.comment(kLightScaleComment)).value_or(1.0);
   }
 
   // Returns the materials of one source width.
