@@ -79,7 +79,7 @@ WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
 // Throws kUsage if the name does not end with .html.
 void require_report_path(const std::filesystem::path& path);
 
-// Writes one HTML file with embedded pictures. Throws the errors of require_report_path(), and kOutput.
+// Writes one HTML file with embedded pictures. Throws kOutput.
 void write_warp_report(const std::filesystem::path& path, const WarpReport& report);
 
 }  // namespace remap
