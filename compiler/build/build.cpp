@@ -8,20 +8,20 @@
 #include <set>
 
 #include "build/fit_folder.hpp"
-#include "build/lock.hpp"
+#include "build/freshness.hpp"
 #include "build/report.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "emit/emit.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/inverse_table.hpp"
-#include "fit/network/material_network.hpp"
+#include "fit/network/fit_network.hpp"
 #include "lower/chain.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
-#include "measure/material_sample.hpp"
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
 #include "renderer/renderer.hpp"
 #include "table/table.hpp"
@@ -59,9 +59,8 @@ class Builder {
       std::vector<const ManifestItem*> ready, later;
       for (const ManifestItem* item : waiting) {
         const std::vector<std::string> inputs = inputs_of(*item);
-        const bool waits = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
-          return std::any_of(waiting.begin(), waiting.end(),
-                             [&](const ManifestItem* other) { return other->id == input; });
+        const bool waits = std::ranges::any_of(inputs, [&](const std::string& input) {
+          return std::ranges::any_of(waiting, [&](const ManifestItem* other) { return other->id == input; });
         });
         const auto lost =
             std::ranges::find_if(inputs, [&](const auto& input) { return failures_.contains(input); });
@@ -277,8 +276,8 @@ class Builder {
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)
-      throw Error(ErrorKind::kInput, "dielectric F0 is " + number_text(sampled) + " in the samples and " +
-                                         number_text(own) + " in the manifest");
+      throw input_error("dielectric F0 is " + number_text(sampled) + " in the samples and " +
+                        number_text(own) + " in the manifest");
     fit.conversion.specular = network.fit.conversion.specular;
     fit.conversion.metallic = network.fit.conversion.metallic;
     fit.remarks = network.fit.remarks;

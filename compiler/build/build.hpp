@@ -2,8 +2,6 @@
 // report. It makes only what is missing or out of date.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,18 +9,17 @@
 #include "build/freshness.hpp"
 #include "build/manifest.hpp"
 #include "lower/fit.hpp"
+#include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
 
 // A BuildExecution decides how a build runs. None of this changes its results.
-struct BuildExecution {
-  unsigned jobs = 0;   // number of items at once; 0: one for each core
+// `jobs` is the number of items at once. If the build is cancelled, finished items stay.
+struct BuildExecution : SweepExecution {
   bool force = false;  // makes everything again
   bool prune = false;  // deletes files of vanished items
-  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // if true, throws kInterrupted; finished items stay
 };
 
 // A BuiltItem holds the files and times of one item. Its seconds say how long the thread of the item worked.

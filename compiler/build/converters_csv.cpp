@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "build/report.hpp"
-#include "build/trust.hpp"
+#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "lower/inverse.hpp"
+#include "lower/chain.hpp"
 
 namespace remap {
 namespace {
@@ -48,12 +48,6 @@ const std::vector<std::string> kColumns = {"converter",
 using Pairs = std::map<std::pair<std::string, std::string>, const Fit*>;
 
 std::string figure(double value) { return number_text(rounded(value, 3)); }
-
-std::string joined(const std::vector<std::string>& remarks) {
-  std::string text;
-  for (const std::string& remark : remarks) text += (text.empty() ? "" : " ") + remark;
-  return text;
-}
 
 // Changes a text so that numpy's genfromtxt can read it. genfromtxt has no quotes and treats everything after
 // # as a comment.
@@ -100,9 +94,9 @@ void add_round_trip(const Fit& fit, const Pairs& pairs, Row* row) {
 }
 
 std::string origin(const Fit& fit) {
-  std::string text = joined(fit.remarks);
-  if (const auto inverse = fit.table.comments.find("inverse_of"); inverse != fit.table.comments.end())
-    text += "Inverse of " + inverse->second + ".";
+  std::string text = joined(fit.remarks, " ");
+  if (const std::string inverse = fit.table.comment("inverse_of"); !inverse.empty())
+    text += "Inverse of " + inverse + ".";
   if (const auto steps = fit.method.find("against its steps one after another"); steps != fit.method.end())
     text += " Against its steps: " + steps->second + ".";
   return text;
@@ -140,7 +134,7 @@ Row row_of(const WorkflowFit& fit) {
           {"dielectric_f0", number_text(conversion.metallic.dielectric_f0)},
           {"diffuse", std::string(diffuse_convention_name(conversion.specular.diffuse))},
           {"formula", formula_text(conversion.formula)},
-          {"remarks", joined(fit.remarks)}};
+          {"remarks", joined(fit.remarks, " ")}};
 }
 
 Row row_of(const WarpMapFit& fit) {

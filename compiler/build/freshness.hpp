@@ -1,14 +1,36 @@
-// This file decides which files of a build are up to date.
+// This file decides which files of a build are up to date, from the hashes that the last build stored.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "build/lock.hpp"
 #include "build/manifest.hpp"
 
 namespace remap {
+
+inline constexpr const char* kLockName = "manifest.lock";
+
+// A LockedItem holds the SHA-256 of an item's inputs and results. They are empty if there are none.
+struct LockedItem {
+  std::string recipe;  // hash of its recipe, the version of remapc and the fits that it is made from
+  std::string table;
+  std::string fit;
+  std::string header;
+  bool operator==(const LockedItem&) const = default;
+};
+
+struct Lock {
+  std::map<std::string, LockedItem> items;  // keyed by id
+  std::string report;                       // hash of all fits in the folder, from which the report is made
+  bool operator==(const Lock&) const = default;
+};
+
+// Returns an empty lock if the folder has no lock, or a lock of an unknown version. Everything is then made
+// again.
+Lock load_lock(const std::filesystem::path& fit_folder);
+void save_lock(const std::filesystem::path& fit_folder, const Lock& lock);
 
 struct BuildFolders {
   std::filesystem::path fits = "fits";  // fits, with tables/ in it; README.md there is the report

@@ -132,7 +132,7 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   std::vector<std::string> known;
   for (const ManifestItem& item : items) known.push_back(item.id);
   const std::string id = field.text();
-  if (std::find(known.begin(), known.end(), id) == known.end())
+  if (std::ranges::find(known, id) == known.end())
     field.fail("no item before this one has the id " + id + suggestion(id, known));
   return id;
 }
@@ -150,7 +150,7 @@ void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
 void require_unique(const std::vector<ManifestItem>& items, const std::string& context) {
   std::vector<std::string> ids;
   for (const ManifestItem& item : items) ids.push_back(item.id);
-  std::sort(ids.begin(), ids.end());
+  std::ranges::sort(ids);
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end())
     throw input_error(context + ": " + *twice + " is defined twice (remove one definition)");

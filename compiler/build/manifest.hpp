@@ -51,7 +51,7 @@ struct ManifestItem {
   std::variant<SweptItem, DerivedItem, AnyFit, NetworkItem> kind;
   std::string recipe;      // text that defines the item; items with equal recipes are equal
   std::uint64_t seed = 1;  // seed of its fit and of random materials
-  // True if a difference between the light of the two models is accepted (table/light.hpp). The list
+  // True if a difference between the light of the two models is accepted (table/table.hpp). The list
   // `accepted_light` of the manifest has such items, each with a reason. This is not part of the recipe,
   // because it does not change the table.
   bool accept_light = false;

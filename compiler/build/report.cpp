@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
-#include "build/trust.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
@@ -111,8 +111,8 @@ std::string uncompared_lines(const std::vector<Fit>& fits) {
 
 std::string mark_text(const FitFolder& folder) {
   const std::size_t all = folder.fits.size() + folder.workflows.size() + folder.warps.size();
-  const auto marked = std::count_if(folder.fits.begin(), folder.fits.end(),
-                                    [](const Fit& fit) { return !trust_warning(fit).empty(); });
+  const auto marked =
+      std::ranges::count_if(folder.fits, [](const Fit& fit) { return !trust_warning(fit).empty(); });
   return "\n**(!)** marks " + std::to_string(marked) + " of " + std::to_string(all) +
          " converters: an image error above " + percent(kLargestTrustedError) +
          ", or pictures that were never compared\n(published formulas, and what is derived from them). "
@@ -183,6 +183,26 @@ std::string page(const FitFolder& folder) {
 }
 
 }  // namespace
+
+bool is_measured(const Fit& fit) { return mean_ssim(fit).has_value(); }
+
+double image_error(const Fit& fit) {
+  return fit.image_error ? fit.image_error->rms : std::numeric_limits<double>::infinity();
+}
+
+std::string trust_warning(const Fit& fit) {
+  if (!fit.image_error) return "pictures never compared";
+  return image_error(fit) > kLargestTrustedError ? "image error above " + fixed(kLargestTrustedError, 2) : "";
+}
+
+std::vector<const Fit*> by_trust(const std::vector<Fit>& fits) {
+  std::vector<const Fit*> sorted;
+  for (const Fit& fit : fits) sorted.push_back(&fit);
+  std::ranges::sort(sorted, [](const Fit* a, const Fit* b) {
+    return std::pair(image_error(*a), a->id) < std::pair(image_error(*b), b->id);
+  });
+  return sorted;
+}
 
 std::vector<EmittedFile> report(const FitFolder& folder) {
   return {{kReportName, page(folder)}, {kFiguresName, converters_csv(folder)}};

@@ -7,12 +7,13 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
+#include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "core/stopwatch.hpp"
 #include "remap/error.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {
@@ -20,8 +21,8 @@ namespace {
 struct BuildCommand {
   BuildFolders folders;
   RendererOptions renderers;
-  unsigned jobs = 0;
-  bool force = false, prune = false, check = false, json = false;
+  BuildExecution execution;
+  bool check = false, json = false;
 };
 
 void run_check(const BuildCommand& command, const Manifest& manifest) {
@@ -31,9 +32,8 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
-    throw Error(ErrorKind::kInput, command.folders.fits.string() + ": " + counted(reasons.size(), "item") +
-                                       (reasons.size() == 1 ? " is" : " are") +
-                                       " out of date (run `remapc build`)");
+    throw input_error(command.folders.fits.string() + ": " + counted(reasons.size(), "item") +
+                      (reasons.size() == 1 ? " is" : " are") + " out of date (run `remapc build`)");
 }
 
 std::string seconds_text(double seconds) { return number_text(rounded_up(seconds, 2)) + " s"; }
@@ -82,8 +82,8 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     std::cerr << id << ": no longer in the manifest, so its files were removed\n";
   for (const std::string& id : vanished)
     std::cerr << id << ": no longer in the manifest; its files are kept"
-              << (command.prune ? " because they were edited after the last build"
-                                : " (--prune removes them)")
+              << (command.execution.prune ? " because they were edited after the last build"
+                                          : " (--prune removes them)")
               << "\n";
   for (const BuiltItem& item : result.built)
     if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
@@ -115,12 +115,9 @@ void run(const BuildCommand& command) {
   BuildResult result;
   {
     Progress progress("build " + command.folders.fits.string(), manifest.size());
-    BuildExecution execution;
-    execution.jobs = command.jobs;
-    execution.force = command.force;
+    BuildExecution execution = command.execution;
     execution.cancelled = &interruption();
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
-    execution.prune = command.prune;
     result = build(*renderer, manifest, command.folders, execution);
   }
   report(command, manifest, result, stopwatch.seconds());
@@ -140,12 +137,12 @@ void add_build_command(Command& app) {
   command->option_group("What to make");
   command->add_flag("--check", options.check,
                     "Write nothing, list the items that are out of date; exit code 1 if there are any");
-  command->add_flag("--force", options.force, "Make every item again");
-  command->add_flag("--prune", options.prune,
+  command->add_flag("--force", options.execution.force, "Make every item again");
+  command->add_flag("--prune", options.execution.prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
   command->add_flag("--json", options.json, "Print the result as JSON to standard output");
   command->option_group(kRareOptions);
-  command->add_option("--jobs", options.jobs,
+  command->add_option("--jobs", options.execution.jobs,
                       "Items made at a time, 0: one per core; the results do not depend on it");
   add_renderer_options(*command, options.renderers);
   command->footer(

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/report_text.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -9,11 +9,10 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/inverse_table.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

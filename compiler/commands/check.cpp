@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "commands/commands.hpp"
-#include "commands/table_input.hpp"
+#include "commands/option_readers.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
 

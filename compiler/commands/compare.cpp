@@ -7,14 +7,13 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "core/json.hpp"
 #include "core/report_text.hpp"
 #include "fit/baselines.hpp"
 #include "report/fit_plot.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
@@ -62,8 +61,8 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
 
 // Returns the fit's id, or its file if another fit has the same id.
 std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
-  const auto same = std::count_if(all.begin(), all.end(),
-                                  [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
+  const auto same =
+      std::ranges::count_if(all, [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
   return same > 1 ? one.file : one.fit.id;
 }
 
@@ -162,8 +161,7 @@ void add_compare_command(Command& app) {
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(
       "max is the largest error over all usable rows. `remapc fit --model auto` prints the same table for "
-      "rows "
-      "that were held out, with the errors of pictures.\n\n"
+      "rows that were held out, with the errors of pictures.\n\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
 }
 

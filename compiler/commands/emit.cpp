@@ -15,8 +15,6 @@
 #include "core/files.hpp"
 #include "core/nearest_name.hpp"
 #include "core/report_text.hpp"
-#include "emit/languages.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -103,9 +101,8 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
 
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
-    throw Error(ErrorKind::kUsage, options.all
-                                       ? "--all: cannot be used together with fits (remove --all or the fits)"
-                                       : "no fits given (write remapc emit FIT, or remapc emit --all)");
+    throw usage_error(options.all ? "--all: cannot be used together with fits (remove --all or the fits)"
+                                  : "no fits given (write remapc emit FIT, or remapc emit --all)");
   if (options.all && options.language)
     throw usage_error(
         "--language: cannot be used with --all, which writes every language (remove this option)");
@@ -129,12 +126,12 @@ void run(const EmitCommand& options) {
   // Another run does not remove headers without a fit.
   const bool have_no_fits = std::ranges::all_of(
       found, [](const std::string& difference) { return difference.ends_with(kDeleteIt); });
-  throw Error(ErrorKind::kInput, options.output.string() + ": " + counted(found.size(), "file") +
-                                     (is_one ? " is" : " are") + " out of date (" +
-                                     (!have_no_fits ? "run this command without --check"
-                                      : is_one      ? "delete it"
-                                                    : "delete them") +
-                                     ")");
+  throw input_error(options.output.string() + ": " + counted(found.size(), "file") +
+                    (is_one ? " is" : " are") + " out of date (" +
+                    (!have_no_fits ? "run this command without --check"
+                     : is_one      ? "delete it"
+                                   : "delete them") +
+                    ")");
 }
 
 }  // namespace

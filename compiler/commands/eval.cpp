@@ -6,14 +6,13 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "lower/interpreter.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

@@ -4,8 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 namespace {

@@ -12,21 +12,18 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "commands/share_progress.hpp"
-#include "commands/table_input.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/report_text.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/network/material_network.hpp"
-#include "fit/parametric/parametric_form.hpp"
+#include "fit/network/fit_network.hpp"
+#include "fit/parametric/parametric.hpp"
 #include "lower/fit_file.hpp"
-#include "lower/limits.hpp"
 #include "lower/lower.hpp"
 #include "report/fit_plot.hpp"
-#include "table/domain.hpp"
-#include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
@@ -59,7 +56,7 @@ void require_consistent(const FitCommand& command, const Command& app) {
   };
   require_model("--form", "parametric");
   for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
-  if (!command.options.form.empty()) find_form(command.options.form);
+  has_pole(command.options.form);  // throws for an unknown form
 }
 
 void report(const FitCommand& command, const std::filesystem::path& path, const Fit& fit) {
@@ -110,7 +107,7 @@ void require_material_options(const FitCommand& command) {
 }
 
 MaterialNetworkOptions network_options(const FitCommand& command, const Command& app) {
-  const MlpOptions& mlp = command.options.mlp;
+  const TrainingOptions& mlp = command.options.mlp;
   MaterialNetworkOptions options;
   options.id = command.options.id;
   if (app.count("--layers") != 0) options.hidden = mlp.hidden;

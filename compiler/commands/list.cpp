@@ -10,7 +10,7 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "renderer/renderer.hpp"
-#include "table/domain.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {

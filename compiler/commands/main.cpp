@@ -7,9 +7,7 @@
 int main(int argc, char** argv) {
   remap::Command app(
       "Measures how the parameters of one BRDF model convert to the parameters of another, and compiles the "
-      "result "
-      "into a "
-      "C++ header: sweep, check, fit, emit.",
+      "result into a C++ header: sweep, check, fit, emit.",
       "remapc");
   app.set_version_flag("--version", remap::version_text("remapc", REMAP_LIBRARIES));
   app.require_subcommand(1);

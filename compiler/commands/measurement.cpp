@@ -7,11 +7,10 @@
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 namespace {
@@ -62,7 +61,7 @@ void add_role_options(Command& app, const std::string& side, ParameterRoles& rol
 
 Reader<std::string> objective_name() {
   return {[](const std::string& option, const std::string& word) {
-            if (std::find(kObjectives.begin(), kObjectives.end(), word) == kObjectives.end())
+            if (std::ranges::find(kObjectives, word) == kObjectives.end())
               fail_unknown(option, "objective", word, kObjectives);
             return word;
           },
@@ -84,10 +83,9 @@ void MeasurementOptions::add_table_options(Command& app, const std::string& tabl
 
 void MeasurementOptions::add_picture_options(Command& app) {
   app.option_group("Pictures and how they are compared");
-  app.add_option(
-         "--objective NAME", objective, objective_name(),
-         "natural: light at 65 degrees, relative weights, and the mean; natural-1: light at 60 degrees, "
-         "relative weights; paper: headlight, uniform weights")
+  app.add_option("--objective NAME", objective, objective_name(),
+                 "natural: light at 65 degrees, relative weights, and the mean; natural-1: light at 60 "
+                 "degrees, relative weights; paper: headlight, uniform weights")
       ->default_text("natural, now natural-2");
   app.add_option("--light LIGHTS", lights, list_of(light_angle()),
                  "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");

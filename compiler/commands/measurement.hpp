@@ -12,9 +12,8 @@
 #include "core/json.hpp"
 #include "core/stopwatch.hpp"
 #include "measure/sweep_options.hpp"
-#include "table/light.hpp"
 #include "table/table.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 

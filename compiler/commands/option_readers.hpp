@@ -1,4 +1,4 @@
-// This file reads options: lights, ranges, and numbers by the names of parameters.
+// This file reads options: lights, ranges, numbers by the names of parameters, and tables.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 
 #include "command_line/command.hpp"
 #include "remap/model.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 
@@ -50,5 +51,29 @@ void add_settings(Command& app, const std::string& names, std::map<std::string, 
       ->expected(1, kMost)
       ->allow_extra_args(false);
 }
+
+struct TableInput {
+  std::string path;
+  ColumnMap columns;
+  std::string source, target;  // models; if empty, the table names them
+
+  // Adds the options. `is_required` is true if the command needs a table.
+  void add_options(Command& app, bool is_required = true);
+
+  // Reads the file once. If `bytes` is not null, it receives whole_text() of the table. Throws kInput and
+  // kUsage like parse_table(). For a table of named parameters, throws an error.
+  Table read(std::string* bytes = nullptr) const;
+  // Reads a table of either form.
+  AnyTable read_any(std::string* bytes = nullptr) const;
+
+ private:
+  Table with_models(Table table) const;
+};
+
+Reader<ColumnMap> columns_reader();
+
+// Adds --accept-light. With it, a difference of light that light_remark() (table/table.hpp) would report as
+// an error is accepted.
+void add_accept_light_flag(Command& app, bool& accept_light);
 
 }  // namespace remap

@@ -19,9 +19,8 @@
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "look/image.hpp"
-#include "report/set_preview.hpp"
 #include "texremap/plan/asset_formats.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {
@@ -268,11 +267,10 @@ void add_preview_command(Command& app) {
                    "Shapes, comma-separated")
       ->default_text("sphere,torus");
   command
-      ->add_option(
-          "--light LIGHT,...", options.lights,
-          "Lights, comma-separated: headlight, degrees from the camera, or an environment, which lights "
-          "spheres of built-in models: sky, overcast, studio, or a map (EXR, HDR) (default: studio; 45 for "
-          "models of workers and other shapes)")
+      ->add_option("--light LIGHT,...", options.lights,
+                   "Lights, comma-separated: headlight, degrees from the camera, or an environment, which "
+                   "lights spheres of built-in models: sky, overcast, studio, or a map (EXR, HDR) (default: "
+                   "studio; 45 for models of workers and other shapes)")
       ->delimiter(',');
   command->add_option("--exposure", options.exposure, "Mean luminance of environments")->positive();
   command->add_option("--diffuse", options.options.diffuse, "Diffuse reflectance of all pictures, 0 to 1");
@@ -290,10 +288,9 @@ void add_preview_command(Command& app) {
           "N x N samples per pixel; under an environment, only at the edge of the shape; 1: the pixel center")
       ->range(1, 16);
   command->option_group("Real renderers (texture sets and assets)");
-  command->add_option(
-      "--renderer-before NAME", options.renderer_before,
-      "Renderer that shows the source: cycles-5, mitsuba3, threejs-r187, or a worker with maps "
-      "(default: the built-in renderer)");
+  command->add_option("--renderer-before NAME", options.renderer_before,
+                      "Renderer that shows the source: cycles-5, mitsuba3, threejs-r187, or a worker with "
+                      "maps (default: the built-in renderer)");
   command->add_option("--renderer-after NAME", options.renderer_after,
                       "Renderer that shows the copied numbers and the converted ones");
   add_renderer_options(*command, options.renderers);

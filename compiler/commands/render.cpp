@@ -6,7 +6,7 @@
 #include "core/number_text.hpp"
 #include "look/image.hpp"
 #include "renderer/renderer.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {

@@ -6,8 +6,7 @@
 #include "commands/commands.hpp"
 #include "core/json.hpp"
 #include "remap/error.hpp"
-#include "table/domain.hpp"
-#include "worker/renderer_options.hpp"
+#include "table/regression.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remap {

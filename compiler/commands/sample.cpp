@@ -3,7 +3,7 @@
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"
-#include "measure/material_sample.hpp"
+#include "measure/sweep.hpp"
 
 namespace remap {
 namespace {

@@ -11,13 +11,12 @@
 #include "commands/option_readers.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
+#include "lower/chain.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
-#include "lower/inverse.hpp"
 #include "remap/error.hpp"
-#include "table/domain.hpp"
-#include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
@@ -27,10 +26,6 @@ struct ShowOptions {
   std::string fit;
   bool json = false;
 };
-
-std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
-}
 
 std::string figures_text(const ErrorFigures& f, const std::string& p99 = "99 %") {
   return "rms " + error_text(f.rms) + ", " + p99 + " " + error_text(f.p99) + ", max " + error_text(f.max);

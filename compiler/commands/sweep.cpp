@@ -7,10 +7,9 @@
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"
-#include "commands/table_input.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "measure/provenance.hpp"
+#include "measure/sweep_options.hpp"
 
 namespace remap {
 namespace {

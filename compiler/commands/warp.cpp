@@ -16,9 +16,7 @@
 #include "lower/fit_file.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
-#include "warp/copied_set.hpp"
 #include "warp/strokes.hpp"
-#include "warp/tabulated_set.hpp"
 #include "warp/texture_material.hpp"
 
 namespace remap {

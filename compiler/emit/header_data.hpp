@@ -9,15 +9,8 @@
 
 #include "converter/converter_data.hpp"
 #include "lower/fit_file.hpp"
-#include "stages/packed_warp.hpp"
 
 namespace remap {
-
-struct WarpHeader {
-  PackedWarp warp;
-  decltype(ParameterTable::entries) entries;
-  double copy_rms_error = -1.0;
-};
 
 // A HeaderEnd is the source or the target of a header.
 struct HeaderEnd {
@@ -42,7 +35,7 @@ struct HeaderData {
   std::string provenance;  // sentences on several lines
   HeaderEnd source, target;
   std::vector<GoldenValues> golden;
-  std::variant<ConverterData, WorkflowConversion, WarpHeader> code;  // a network must be folded()
+  std::variant<ConverterData, WorkflowConversion, WarpMapFit> code;  // a network must be folded()
 };
 
 // Describes a fit. Throws kNumeric for a fit without a converter.
@@ -76,7 +69,7 @@ struct MaterialCode {
 };
 
 MaterialCode material_code(const WorkflowConversion& conversion);
-MaterialCode material_code(const WarpHeader& header);
+MaterialCode material_code(const WarpMapFit& fit);
 
 // network_function() returns `void NAME(std::size_t count, const float* const* in, float* const* out)`, for
 // counts up to kBlock. This function computes rows of a network's outputs from rows of its inputs. The

@@ -1,11 +1,12 @@
-#include "fit/comparison.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
+// This file compares fits of one table. It chooses the fit with the fewest numbers among those that look like
+// the best.
+#include "fit/fit_table.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr int kIterations = 12;
 // This limits the terms of a factor. With more terms, a form would overfit the lights that choose it.
-constexpr std::size_t kMostTerms = 5;
+constexpr std::size_t kMostComparedTerms = 5;
 constexpr FormShape kUnitShape{2, 3};  // follows rows so closely that pictures show no difference
 constexpr double kNear = 1.01;         // an error up to this ratio to the best error is close enough
 constexpr double kNearRmse = 0.05;     // or up to this difference, in percent of the display's range
@@ -234,7 +235,7 @@ Fit compare_forms(const Fit& base, const RowSplit& split, const PairPictures* pi
   std::vector<CompactForm> sound, by_pictures;
   enter("copied", [] { return CompactForm{}; });
   for (const FormShape& shape : shapes) {
-    if (pictures != nullptr && term_count(shape) > kMostTerms) continue;
+    if (pictures != nullptr && term_count(shape) > kMostComparedTerms) continue;
     enter(shape_name(shape), [&] {
       CompactForm form = fit_form(samples, base.limits, base.domain, shape, sound);
       if (!is_sound(form, base.domain))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -10,10 +11,11 @@
 #include "core/number_text.hpp"
 #include "fit/parametric/parametric.hpp"
 #include "fit/svr/svr.hpp"
+#include "lower/chain.hpp"
+#include "lower/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
-#include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
@@ -62,6 +64,30 @@ std::optional<ErrorFigures> image_error(const std::vector<TableRow>& rows) {
   return error_figures(std::move(errors));
 }
 
+constexpr std::size_t kInverseAlphas = 48, kInverseSpeculars = 10;
+constexpr int kProbes = 400;  // alphas at which the largest specular is computed
+
+// Returns the largest target specular that the fit reaches at every alpha. This is where the inverse ends.
+double reached_specular(const Fit& fit) {
+  double least = std::numeric_limits<double>::infinity();
+  const Range& alphas = fit.domain.alpha;
+  for (int i = 0; i <= kProbes; ++i) {
+    const double alpha = alphas.min + (alphas.max - alphas.min) * i / kProbes;
+    least = std::min(least, evaluate_fit(fit, alpha, fit.domain.specular.max).specular);
+  }
+  return least;
+}
+
+TableRow row_of(const Fit& fit, const MappedTexel& target) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (const auto source = inverse(fit, target))
+    return {target.alpha, target.specular, source->alpha, source->specular, unknown, RowStatus::kOk, 0};
+  const double alpha = std::clamp(target.alpha, fit.domain.alpha.min, fit.domain.alpha.max);
+  const double black = evaluate_fit(fit, alpha, 0.0).specular;
+  const RowStatus status = target.specular <= black ? RowStatus::kFlat : RowStatus::kClamped;
+  return {target.alpha, target.specular, alpha, fit.domain.specular.max, unknown, status, 0};
+}
+
 }  // namespace
 
 Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
@@ -88,7 +114,9 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
   const std::unique_ptr<PairPictures> pictures =
       is_inverse ? nullptr : pair_pictures(fit.source.model, fit.target.model, fit.domain, options.jobs);
   if (!options.kind.empty()) {
-    const Regression regression = fit_kind(inside_rows(split.training), fit.domain, options, progress);
+    std::vector<TableRow> below_limits = split.training;
+    std::erase_if(below_limits, [](const TableRow& row) { return row.status != RowStatus::kOk; });
+    const Regression regression = fit_kind(below_limits, fit.domain, options, progress);
     fit.mapping = regression.mapping;
     fit.method = regression.method;
     if (!is_proportional(fit.mapping)) fit.domain.specular.min = kLeastShare * fit.domain.specular.max;
@@ -100,13 +128,43 @@ Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& opti
 
 Regression fit_kind(const std::vector<TableRow>& rows, const Domain& domain, const FitOptions& options,
                     const FitProgress& progress) {
-  if (options.kind == "parametric") return fit_parametric_kind(rows, domain, options.form);
+  if (options.kind == "parametric") return fit_parametric(rows, domain, options.form);
   if (options.kind == "svr") return fit_svr(rows, {options.seed, options.jobs, {}, {}}, progress);
   if (options.kind != "mlp") throw usage_error("unknown kind of fit '" + std::string(options.kind) + "'");
-  MlpOptions mlp = options.mlp;
+  TrainingOptions mlp = options.mlp;
   mlp.seed = options.seed;
   mlp.jobs = options.jobs;
   return fit_mlp(rows, mlp, progress);
+}
+
+Table inverse_table(const Fit& fit, std::string_view bytes) {
+  Table table;
+  table.source = fit.target;
+  table.target = fit.source;
+  table.name = converter_id(table.source.model, table.target.model) + ".csv";
+  const double least = fit.domain.specular.max / kInverseSpeculars;
+  const Range alphas{evaluate_fit(fit, fit.domain.alpha.min, least).alpha,
+                     evaluate_fit(fit, fit.domain.alpha.max, least).alpha};
+  const double top = reached_specular(fit);
+  table.comments = {
+      {"tool", std::string("remapc ") + kVersion},
+      {"source", table.source.model},
+      {"source_roughness", std::string(encoding_name(table.source.roughness))},
+      {"source_specular", table.source.specular},
+      {"target", table.target.model},
+      {"target_roughness", std::string(encoding_name(table.target.roughness))},
+      {"target_specular", table.target.specular},
+      {"inverse_of", fit.id},
+      {"inverse_of_sha256", sha256(bytes)},
+  };
+  for (std::size_t i = 0; i < kInverseAlphas; ++i)
+    for (std::size_t j = 1; j <= kInverseSpeculars; ++j) {
+      const double share = static_cast<double>(i) / (kInverseAlphas - 1.0);
+      const double alpha =
+          i + 1 == kInverseAlphas ? alphas.max : alphas.min + share * (alphas.max - alphas.min);
+      table.rows.push_back(row_of(fit, {alpha, top * static_cast<double>(j) / kInverseSpeculars}));
+    }
+  return table;
 }
 
 }  // namespace remap

@@ -1,8 +1,7 @@
-#include "formula/graph_writer.hpp"
-
 #include <algorithm>
 
 #include "core/number_text.hpp"
+#include "formula/expression.hpp"
 
 namespace remap {
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -91,7 +91,7 @@ std::string upper_case(std::string text) {
 std::string literal(double value) { return float_literal(static_cast<float>(value)); }
 
 std::string double_literal(double value) {
-  if (!std::isfinite(value)) throw Error(ErrorKind::kNumeric, "emit: a number is not finite");
+  if (!std::isfinite(value)) throw numeric_error("emit: a number is not finite");
   const std::string text = number_text(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numbers>
 
 #include "lights/display_curve.hpp"
-#include "lights/lobe_pictures.hpp"
 #include "look/brdf_models.hpp"
+#include "look/environment.hpp"
+#include "look/lit_sphere.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
@@ -23,6 +25,8 @@ constexpr std::array kChoosingSpeculars = {0.04, 0.2, 0.6, 1.0}, kJudgingSpecula
 // weight 1. With 0.5, forms are at least as good as regressions of the rows under both kinds of lights
 // (docs/decisions/079-one-form.md).
 constexpr double kPointWeight = 0.5;
+constexpr double kPointDistance = 3.0;
+constexpr int kPointSamples = 8;  // along each side of a pixel, because highlights are narrower than pixels
 constexpr double kWidthStep = 0.04;  // relative step of difference quotients
 
 // Turns an environment about the vertical axis, by this fraction of a circle.
@@ -39,35 +43,118 @@ Environment turned(const Environment& environment, double share) {
   return result;
 }
 
-// A Half holds pictures of all models that were requested, under half of the lights.
+using Picture = std::vector<float>;  // linear RGB of the pixels that show the sphere
+
+const Renderer& builtin_renderer() {
+  static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
+  return *renderer;
+}
+
+// Returns widths with equal ratios, within the range of the model.
+std::vector<double> widths_of(const std::string& model) {
+  const Range range = builtin_renderer().model(model).alpha;
+  const double low = std::max(kWidths.min, range.min), high = std::min(kWidths.max, range.max);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < kWidthCount; ++i)
+    values.push_back(std::min(
+        high, low * std::pow(high / low, static_cast<double>(i) / static_cast<double>(kWidthCount - 1))));
+  return values;
+}
+
+// A LobePictures holds pictures of the lobe of one model. A picture is linear in specular, and smooth in
+// alpha. So these pictures give the picture of every material with this lobe.
+struct LobePictures {
+  std::vector<double> alphas;  // ascending
+  // The indices are [alpha][light]. `dark` is the picture at specular 0, and `slope` what specular 1 adds.
+  std::vector<std::vector<Picture>> dark, slope;
+
+  // Alpha is clamped to `alphas`, and interpolated between them by its logarithm.
+  Picture at(std::size_t light, const MappedTexel& texel) const {
+    Picture picture(dark[0][light].size(), 0.0f);
+    const double clamped = std::clamp(texel.alpha, alphas.front(), alphas.back());
+    const auto above = std::ranges::upper_bound(alphas, clamped);
+    const auto high = static_cast<std::size_t>(std::min(above, alphas.end() - 1) - alphas.begin());
+    const std::size_t low = high == 0 ? 0 : high - 1;
+    const double share =
+        high == low ? 0.0 : std::log(clamped / alphas[low]) / std::log(alphas[high] / alphas[low]);
+    for (const auto& [index, weight] : {std::pair(low, 1.0 - share), std::pair(high, share)}) {
+      if (weight == 0.0) continue;
+      const Picture &own_dark = dark[index][light], &own_slope = slope[index][light];
+      const auto by_slope = static_cast<float>(weight * texel.specular), by_dark = static_cast<float>(weight);
+      for (std::size_t i = 0; i < picture.size(); ++i)
+        picture[i] += by_dark * own_dark[i] + by_slope * own_slope[i];
+    }
+    return picture;
+  }
+};
+
+// A Half is half of the lights: environments, and after these point lights. It keeps the pictures of all
+// models that were requested. Under a point light, a white diffuse sphere has radiance 1 at its closest
+// point, if this faces the light. Angles are in degrees from the camera.
 class Half {
  public:
-  Half(std::vector<Environment> environments, const std::vector<double>& angles, unsigned jobs)
-      : lights_(std::move(environments), {kResolution, kSamples, jobs, {}, nullptr}, angles) {}
+  Half(std::vector<Environment> environments, std::vector<double> angles, unsigned jobs)
+      : environments_(std::move(environments)), angles_(std::move(angles)), jobs_(jobs) {}
 
-  const StudyLights& lights() const { return lights_; }
+  std::size_t environment_count() const { return environments_.size(); }
+  std::size_t count() const { return environments_.size() + angles_.size(); }
   const LobePictures& of(const std::string& model) {
     const std::lock_guard lock(mutex_);
-    std::unique_ptr<LobePictures>& pictures = pictures_[model];
-    if (!pictures) pictures = std::make_unique<LobePictures>(lights_, model, widths_of(model));
-    return *pictures;
-  }
-  // Returns widths with equal ratios, within the range of the model.
-  static std::vector<double> widths_of(const std::string& model) {
-    static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
-    const Range range = renderer->model(model).alpha;
-    const double low = std::max(kWidths.min, range.min), high = std::min(kWidths.max, range.max);
-    std::vector<double> values;
-    for (std::size_t i = 0; i < kWidthCount; ++i)
-      values.push_back(std::min(
-          high, low * std::pow(high / low, static_cast<double>(i) / static_cast<double>(kWidthCount - 1))));
-    return values;
+    if (const auto found = pictures_.find(model); found != pictures_.end()) return found->second;
+    return pictures_.emplace(model, pictures_of(model)).first->second;
   }
 
  private:
-  StudyLights lights_;
+  LobePictures pictures_of(const std::string& model) const {
+    LobePictures result{widths_of(model), {}, {}};
+    const RadiancePyramid pyramid(environments_);
+    const BrdfModel brdf = builtin_brdf(model);
+    const auto difference = [](Picture a, const Picture& b) {
+      for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+      return a;
+    };
+    for (const double alpha : result.alphas) {
+      const std::array materials = {SphereMaterial{brdf, alpha, 0.0, 0.0},
+                                    SphereMaterial{brdf, alpha, 1.0, 0.0}};
+      const SpherePictures pictures =
+          render_spheres(pyramid, materials, {kResolution, kSamples, jobs_, {}, nullptr});
+      std::vector<Picture>&dark = result.dark.emplace_back(), &slope = result.slope.emplace_back();
+      for (std::size_t light = 0; light < environments_.size(); ++light) {
+        dark.push_back(pictures.radiance(0, light));
+        slope.push_back(difference(pictures.radiance(1, light), dark.back()));
+      }
+      for (const double angle : angles_) {
+        dark.push_back(point_lit(angle, model, alpha, 0.0, pictures.pixels()));
+        slope.push_back(difference(point_lit(angle, model, alpha, 1.0, pictures.pixels()), dark.back()));
+      }
+    }
+    return result;
+  }
+
+  static Picture point_lit(double angle, const std::string& model, double alpha, double specular,
+                           const std::vector<std::uint32_t>& pixels) {
+    Scene scene;
+    scene.resolution = kResolution;
+    scene.light = {angle, kPointDistance};
+    scene.samples_per_axis = kPointSamples;
+    const double nearest = kPointDistance - 1.0, exposure = std::numbers::pi * nearest * nearest;
+    const Renderer& renderer = builtin_renderer();
+    const Image image = renderer.render(grey_material(renderer.model(model), alpha, specular, 0.0), scene);
+    Picture values;
+    values.reserve(3 * pixels.size());
+    for (const std::uint32_t pixel : pixels)
+      values.insert(
+          values.end(), 3,
+          static_cast<float>(exposure * static_cast<double>(
+                                            image.values[pixel * static_cast<std::size_t>(image.channels)])));
+    return values;
+  }
+
+  std::vector<Environment> environments_;
+  std::vector<double> angles_;
+  unsigned jobs_;
   std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<LobePictures>> pictures_;
+  std::map<std::string, LobePictures> pictures_;
 };
 
 Environment sky() { return builtin_environments(kMapHeight)[0]; }
@@ -84,14 +171,12 @@ Half& judging_half(unsigned jobs) {
   return half;
 }
 
-using Picture = std::vector<float>;
-
 // Makes the materials of one half. They have every other width, and the speculars of this half.
 template <typename Speculars>
 std::vector<MappedTexel> materials(const std::string& source, const Domain& domain, bool is_choosing,
                                    const Speculars& speculars) {
   std::vector<MappedTexel> all;
-  const std::vector<double> widths = Half::widths_of(source);
+  const std::vector<double> widths = widths_of(source);
   for (std::size_t i = is_choosing ? 0 : 1; i < widths.size(); i += 2)
     for (const double specular : speculars)
       if (widths[i] >= kLeastWidth && domain.alpha.contains(widths[i]))
@@ -114,17 +199,17 @@ class PairPictures::Judge {
 
   Judge(Half& half, const std::string& source_model, const std::string& target_model,
         const std::vector<MappedTexel>& materials)
-      : lights_(half.lights()), target_(half.of(target_model)) {
+      : environments_(half.environment_count()), lights_(half.count()), target_(half.of(target_model)) {
     const LobePictures& source = half.of(source_model);
     for (const MappedTexel& material : materials) {
       MaterialPictures& shown = shown_.emplace_back();
       shown.source = material;
-      for (std::size_t light = 0; light < lights_.count(); ++light) {
-        Picture picture = picture_of(source, light, material);
+      for (std::size_t light = 0; light < lights_; ++light) {
+        Picture picture = source.at(light, material);
         double power = 0.0;
         for (const float value : picture) power += static_cast<double>(value) * static_cast<double>(value);
         shown.power.push_back(power);
-        if (light < lights_.environment_count()) picture = display_values(picture);
+        if (light < environments_) picture = display_values(picture);
         shown.pictures.push_back(std::move(picture));
       }
     }
@@ -135,14 +220,14 @@ class PairPictures::Judge {
   // Returns the error under a light, in percent or relative. If `sum` is not null, adds the slopes to it.
   double error_under(std::size_t light, const MaterialPictures& shown, const MappedTexel& texel, double unit,
                      TexelError* sum) const {
-    const bool is_environment = light < lights_.environment_count();
-    const Picture here = picture_of(target_, light, texel);
+    const bool is_environment = light < environments_;
+    const Picture here = target_.at(light, texel);
     Picture wide, narrow, brighter;
     const double step = kWidthStep * texel.alpha, more = 0.05;
     if (sum != nullptr) {
-      wide = picture_of(target_, light, {texel.alpha + step, texel.specular});
-      narrow = picture_of(target_, light, {texel.alpha - step, texel.specular});
-      brighter = picture_of(target_, light, {texel.alpha, texel.specular + more});
+      wide = target_.at(light, {texel.alpha + step, texel.specular});
+      narrow = target_.at(light, {texel.alpha - step, texel.specular});
+      brighter = target_.at(light, {texel.alpha, texel.specular + more});
     }
     const DisplayCurve& curve = display_curve();
     double square = 0.0, by_alpha = 0.0, by_specular = 0.0, alpha_2 = 0.0, both = 0.0, specular_2 = 0.0;
@@ -190,17 +275,11 @@ class PairPictures::Judge {
     return errors;
   }
 
-  std::size_t environments() const { return lights_.environment_count(); }
-  std::size_t lights() const { return lights_.count(); }
+  std::size_t environments() const { return environments_; }
+  std::size_t lights() const { return lights_; }
 
  private:
-  Picture picture_of(const LobePictures& model, std::size_t light, const MappedTexel& texel) const {
-    Picture picture(3 * lights_.pixels().size(), 0.0f);
-    model.add(light, texel.alpha, {texel.specular, texel.specular, texel.specular}, false, picture);
-    return picture;
-  }
-
-  const StudyLights& lights_;
+  std::size_t environments_, lights_;
   const LobePictures& target_;
   std::vector<MaterialPictures> shown_;
 };

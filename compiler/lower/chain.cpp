@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <vector>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "lower/covered_box.hpp"
 #include "lower/form_fit.hpp"
 #include "lower/interpreter.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 
 namespace remap {
 namespace {
+
+constexpr double kSpecularWeight = 0.25;
 
 constexpr int kAlphas = 401, kSpeculars = 64;  // size of the grid that finds the domain
 constexpr int kCoarse = 25;                    // size of the grid on which errors are propagated
@@ -25,26 +28,21 @@ double at(const Range& range, int i, int count) {
   return i + 1 == count ? range.max : range.min + (range.max - range.min) * i / (count - 1);
 }
 
-std::string side_text(const ModelSide& side) {
-  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
-}
-
 std::string range_text(const Range& range) {
   return number_text(rounded_up(range.min, 4)) + " to " + number_text(rounded_up(range.max, 4));
 }
 
 void require_links(const std::vector<Fit>& steps) {
-  if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: only one fit (give at least 2)");
+  if (steps.size() < 2) throw usage_error("chain: only one fit (give at least 2)");
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)
-      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " converts to " +
-                                         side_text(steps[i - 1].target) + ", but " + steps[i].id +
-                                         " converts from " + side_text(steps[i].source) +
-                                         " (add a step between them)");
+      throw input_error("chain: " + steps[i - 1].id + " converts to " + side_text(steps[i - 1].target) +
+                        ", but " + steps[i].id + " converts from " + side_text(steps[i].source) +
+                        " (add a step between them)");
     if (!visited.insert(steps[i].target.model).second)
-      throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
-                                         " a second time (remove a step)");
+      throw usage_error("chain: " + steps[i].id + " leads to " + steps[i].target.model +
+                        " a second time (remove a step)");
   }
 }
 
@@ -84,10 +82,9 @@ std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
     const double alpha = states(steps, {at(first.alpha, k, kCoarse), specular})[i].alpha;
     reached = {std::min(reached.min, alpha), std::max(reached.max, alpha)};
   }
-  throw Error(ErrorKind::kInput, "chain: the domains of the steps do not meet: before " + steps[i].id +
-                                     ", alpha is " + range_text(reached) + ", but this fit covers alpha " +
-                                     range_text(steps[i].domain.alpha) + " and specular to " +
-                                     number_text(steps[i].domain.specular.max));
+  throw input_error("chain: the domains of the steps do not meet: before " + steps[i].id + ", alpha is " +
+                    range_text(reached) + ", but this fit covers alpha " + range_text(steps[i].domain.alpha) +
+                    " and specular to " + number_text(steps[i].domain.specular.max));
 }
 
 Domain chain_domain(const std::vector<Fit>& steps) {
@@ -204,7 +201,53 @@ double step_by_step(const std::vector<Fit>& steps, double alpha, std::array<doub
   return to_alpha(steps.back().target.roughness, own);
 }
 
+constexpr double kSameEnd = 1e-12;  // tolerance for a range's end, relative to its value
+constexpr int kHalvings = 60;
+
+// Returns the argument within `range` at which a rising function takes `value`, if there is one.
+std::optional<double> root(const std::function<double(double)>& rising, const Range& range, double value) {
+  const double room = kSameEnd * std::fabs(value);
+  double low = range.min, high = range.max;
+  if (!(rising(low) <= value + room) || !(rising(high) >= value - room)) return std::nullopt;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (rising(middle) < value ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+constexpr int kReturnedAlphas = 60, kReturnedSpeculars = 20;
+constexpr double kMedianGoal = 0.005, kP99Goal = 0.02;
+
+// Returns the quantile, by the closest rank.
+double quantile(std::vector<double>* values, double share) {
+  if (values->empty()) return 0.0;
+  const double last = static_cast<double>(values->size());
+  const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(share * last)));
+  std::ranges::sort(*values);
+  return (*values)[rank - 1];
+}
+
 }  // namespace
+
+std::optional<Domain> covered_box(const std::vector<CoveredColumn>& columns) {
+  std::optional<Domain> best;
+  double best_score = -1.0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].is_gap) continue;
+    double reach = INFINITY;
+    for (std::size_t j = i; j < columns.size(); ++j) {
+      if (columns[j].is_gap) continue;
+      reach = std::min(reach, columns[j].reach);
+      if (!(reach > 0.0)) break;
+      const double score = (columns[j].last - columns[i].first) * std::pow(reach, kSpecularWeight);
+      if (!(score > best_score)) continue;
+      best_score = score;
+      best = Domain{{columns[i].first, columns[j].last}, {0.0, reach}};
+    }
+  }
+  return best;
+}
 
 Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   require_links(steps);
@@ -212,8 +255,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.source = steps.front().source;
   chain.target = steps.back().target;
   chain.id = id.empty() ? converter_id(chain.source.model, chain.target.model) : id;
-  if (!is_valid_id(chain.id))
-    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
+  if (!is_valid_id(chain.id)) throw usage_error("chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
   chain.domain = chain_domain(steps);
   chain.limits = steps.back().limits;
   chain.mapping = composed_form(steps, chain);
@@ -251,6 +293,56 @@ ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& 
       }
     }
   return difference;
+}
+
+std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
+  const MappingKind& mapping = fit.mapping;
+  const Domain& domain = fit.domain;
+  // Returns the specular that is needed at an alpha, clamped to the domain. The last test below rejects
+  // clamped values.
+  const auto specular_at = [&](double alpha) {
+    const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
+    if (rising(domain.specular.min) >= target.specular) return domain.specular.min;
+    return root(rising, domain.specular, target.specular).value_or(domain.specular.max);
+  };
+  const auto rising = [&](double alpha) {
+    return evaluate_mapping(mapping, alpha, specular_at(alpha)).alpha;
+  };
+  const std::optional<double> alpha = root(rising, domain.alpha, target.alpha);
+  if (!alpha) return std::nullopt;
+  const double specular = specular_at(*alpha);
+  const double reached = evaluate_mapping(mapping, *alpha, specular).specular;
+  if (!(std::fabs(reached - target.specular) <= 1e-9 * domain.specular.max)) return std::nullopt;
+  return MappedTexel{*alpha, specular};
+}
+
+RoundTrip round_trip(const Fit& there, const Fit& back) {
+  std::vector<double> alphas, speculars;
+  for (int i = 0; i < kReturnedAlphas; ++i)
+    for (int j = 1; j <= kReturnedSpeculars; ++j) {
+      const Range& range = there.domain.alpha;
+      const double alpha = range.min + (range.max - range.min) * i / (kReturnedAlphas - 1);
+      const double specular = there.domain.specular.max * j / kReturnedSpeculars;
+      const MappedTexel far = evaluate_fit(there, alpha, specular);
+      if (!is_inside(there, alpha, specular) || !back.domain.alpha.contains(far.alpha) ||
+          !back.domain.specular.contains(far.specular) || !is_inside(back, far.alpha, far.specular))
+        continue;
+      const MappedTexel home = evaluate_fit(back, far.alpha, far.specular);
+      alphas.push_back(std::fabs(home.alpha - alpha) / alpha);
+      speculars.push_back(std::fabs(home.specular - specular) / specular);
+    }
+  RoundTrip trip;
+  trip.share = static_cast<double>(alphas.size()) / (kReturnedAlphas * kReturnedSpeculars);
+  trip.alpha_median = quantile(&alphas, 0.5);
+  trip.alpha_p99 = quantile(&alphas, 0.99);
+  trip.specular_median = quantile(&speculars, 0.5);
+  trip.specular_p99 = quantile(&speculars, 0.99);
+  return trip;
+}
+
+bool returns(const RoundTrip& trip) {
+  return trip.share > 0.0 && trip.alpha_median <= kMedianGoal && trip.specular_median <= kMedianGoal &&
+         trip.alpha_p99 <= kP99Goal && trip.specular_p99 <= kP99Goal;
 }
 
 }  // namespace remap

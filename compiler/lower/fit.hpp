@@ -61,11 +61,16 @@ struct TableRecord {
   std::string name;                             // name of the file, without its folder
   std::string sha256;                           // SHA-256 of its bytes
   std::map<std::string, std::string> comments;  // `# key: value`, which are the options of the sweep
+  // Returns the value of a comment, or an empty text if there is no such comment.
+  std::string comment(const std::string& key) const {
+    const auto found = comments.find(key);
+    return found == comments.end() ? "" : found->second;
+  }
   bool operator==(const TableRecord&) const = default;
 };
 
 // A CandidateRecord is one row of the comparison by which `--model auto` decided
-// (compiler/fit/comparison.hpp).
+// (compiler/fit/comparison.cpp).
 struct CandidateRecord {
   std::string name;              // kind and shape of the candidate
   std::size_t number_count = 0;  // number of coefficients, which measures complexity
@@ -111,6 +116,11 @@ struct Fit {
   bool follows_rows() const { return has_errors() && !pictures; }
   bool operator==(const Fit&) const = default;
 };
+
+// Returns a side as people read it: `mitsuba/ward (alpha, specular)`.
+inline std::string side_text(const ModelSide& side) {
+  return side.model + " (" + std::string(encoding_name(side.roughness)) + ", " + side.specular + ")";
+}
 
 // Returns the mean of the compared spheres' structural similarities, or nothing if no spheres were compared.
 inline std::optional<double> mean_ssim(const Fit& fit) {

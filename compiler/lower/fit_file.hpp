@@ -1,19 +1,51 @@
-// This file reads and writes fit files (JSON). Numbers round-trip exactly, and equal fits give equal bytes
-// everywhere.
+// This file holds fits of whole materials, and reads and writes the files of fits of every type (JSON).
+// Numbers round-trip exactly, and equal fits give equal bytes everywhere. Limits of the numbers in a fit are
+// several times as large as any fit that remap ships or finds. A fit at the limits can still be shown,
+// emitted and applied in a few seconds.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "lower/fit.hpp"
-#include "lower/workflow_fit.hpp"
+#include "reference/workflow_conversion.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
 #include "stages/warp_json.hpp"
 
 namespace remap {
+
+// A NetworkTraining records how a network was trained. Errors are over the held-out rows.
+struct NetworkTraining {
+  std::map<std::string, std::string> method;  // shape, optimisers, starts
+  ErrorFigures base_color;                    // over all channels, linear
+  ErrorFigures metallic;
+  Split split;
+  TableRecord table;
+  bool operator==(const NetworkTraining&) const = default;
+};
+
+// A WorkflowFit is of kind `workflow`, or `mlp` if the formula is a network.
+struct WorkflowFit {
+  std::string id;
+  WorkflowConversion conversion;
+  std::optional<NetworkTraining> training;  // set for a network
+  std::vector<std::string> remarks;         // lines of the model card (remapc show)
+  std::string tool_version;
+  bool operator==(const WorkflowFit&) const = default;
+};
+
+inline constexpr const char* kWorkflowKind = "workflow";
+
+inline const char* material_kind(const WorkflowFit& fit) {
+  return is_learned(fit.conversion.formula) ? "mlp" : kWorkflowKind;
+}
 
 // An AnyFit is a fit of any type that a file can contain.
 using AnyFit = std::variant<Fit, WorkflowFit, WarpMapFit>;
@@ -42,5 +74,20 @@ AnyFit load_any_fit(const std::filesystem::path& path);
 // Returns the fit if it maps alpha and specular. For a fit of whole materials, throws an error of `kind` that
 // begins with `context`.
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& context);
+
+// These limit a parametric mapping: powers of specular, powers of alpha, and terms of specular.
+inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kMostTerms = 64;
+// This limits the number of Gaussians for each output.
+inline constexpr std::size_t kMostVectors = 4096;
+// These limit every network.
+inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
+// This limits alpha and specular of a source. Physical values are at most 1, and scales of some models are
+// below 10.
+inline constexpr double kLargestDomain = 1000.0;
+
+// Returns which part of a fit or a network exceeds a limit: `has 5000 support vectors; at most 4096 are
+// possible`. Returns an empty text if no part does.
+std::string oversize(const Fit& fit);
+std::string oversize(const Network& network);
 
 }  // namespace remap

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
 #include "lower/fit_fields.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
-#include "lower/limits.hpp"
 #include "remap/error.hpp"
 #include "stages/warp_json.hpp"
 
@@ -251,8 +251,7 @@ void require_own_converter(const Fit& fit, const Field& root) {
 }  // namespace
 
 std::string fit_to_json(const Fit& fit) {
-  if (const std::string fault = oversize(fit); !fault.empty())
-    throw Error(ErrorKind::kInput, fit.id + ": " + fault);
+  if (const std::string fault = oversize(fit); !fault.empty()) throw input_error(fit.id + ": " + fault);
   Json candidates = Json::list();
   for (const CandidateRecord& candidate : fit.candidates) candidates.push_back(to_json(candidate));
   const Json json = {

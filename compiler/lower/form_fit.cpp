@@ -6,25 +6,21 @@
 
 #include <Eigen/Dense>
 
+#include "core/errors.hpp"
 #include "lower/interpreter.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
 
 constexpr std::array kPoles = {0.02, 0.035, 0.06, 0.1, 0.17, 0.3, 0.5, 1.0};
 constexpr float kMostBend = 4.0f;  // with a larger bend, a hinge is a step
-constexpr double kLeastRelative = 2e-4;
+constexpr double kLeastShown = 0.02, kLeastRelative = 2e-4;
 constexpr int kRowIterations = 30;
 constexpr int kGrid = 80;               // steps over the domain, in each direction
 constexpr double kLeastFactor = 1e-5;   // factors of a sound form are at least this large
 constexpr double kSmallestGain = 2e-5;  // smallest relative gain in the sum of errors that continues a search
 constexpr double kStep = 1e-5;          // smallest change of a number for difference quotients
 constexpr double kRidge = 1e-9;         // relative ridge of normal equations
-
-// Pictures show errors relative to a value. Errors of values below `least` are not visible.
-constexpr double kLeastShown = 0.02;
-double weight_of(double value, double least = kLeastShown) { return 1.0 / std::max(value, least); }
 
 std::vector<std::pair<int, int>> products(const FormShape& shape) {
   std::vector<std::pair<int, int>> all;
@@ -53,15 +49,13 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
   for (const FormSample& sample : samples)
     if (counts(sample)) kept.push_back(&sample);
   if (kept.size() < terms.size())
-    throw Error(ErrorKind::kNumeric, "form: " + std::to_string(kept.size()) +
-                                         " rows below the limits do not "
-                                         "determine " +
-                                         std::to_string(terms.size()) + " numbers");
+    throw numeric_error("form: " + std::to_string(kept.size()) + " rows below the limits do not determine " +
+                        std::to_string(terms.size()) + " numbers");
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(kept.size()), static_cast<Eigen::Index>(terms.size()));
   Eigen::VectorXd wanted(matrix.rows());
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
     const FormSample& sample = *kept[static_cast<std::size_t>(r)];
-    const double weight = weight_of(target(sample), least_shown),
+    const double weight = error_weight(target(sample), least_shown),
                  t = sample.source.specular / (sample.source.specular + pole);
     for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
       const auto& [j, i] = terms[static_cast<std::size_t>(k)];
@@ -75,7 +69,7 @@ std::pair<FactorTerms, double> fit_factor(const std::vector<FormSample>& samples
 
 // Returns the form with the least squares on the samples below the limits. It has no hinge yet.
 CompactForm least_squares(const std::vector<FormSample>& samples, const Limits& limits,
-                          const FormShape& shape, double least_shown) {
+                          const FormShape& shape, double least_shown = kLeastShown) {
   CompactForm best;
   double least = INFINITY;
   const auto is_free = [](const FormSample& sample) {
@@ -254,6 +248,8 @@ const CompactForm* best_within(const std::vector<CompactForm>& forms, const Form
 
 }  // namespace
 
+double error_weight(double value, double least) { return 1.0 / std::max(value, least); }
+
 std::vector<FormShape> form_shapes() {
   return {{1, 1}, {1, 2}, {2, 2}, {1, 4}, {2, 3}, {1, 6}, {3, 4}, {2, 5}};
 }
@@ -278,7 +274,7 @@ CompactForm padded(CompactForm form, const FormShape& shape) {
 }
 
 TexelError row_error(const MappedTexel& found, const MappedTexel& wanted, double weight) {
-  const double a = weight_of(wanted.alpha), s = weight_of(wanted.specular);
+  const double a = error_weight(wanted.alpha), s = error_weight(wanted.specular);
   const double off_alpha = a * (found.alpha - wanted.alpha),
                off_specular = s * (found.specular - wanted.specular);
   return {weight * (off_alpha * off_alpha + off_specular * off_specular),
@@ -320,7 +316,7 @@ CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers) {
 
 CompactForm fit_form(const std::vector<FormSample>& samples, const Limits& limits, const Domain& domain,
                      const FormShape& shape, const std::vector<CompactForm>& sound) {
-  const CompactForm nearest = least_squares(samples, limits, shape, kLeastShown);
+  const CompactForm nearest = least_squares(samples, limits, shape);
   const bool is_limited = nearest.alpha_limit || nearest.specular_limit;
   if (!is_limited && is_sound(nearest, domain)) return nearest;
   // In this start, small values have as much weight as large values. It keeps factors positive that begin

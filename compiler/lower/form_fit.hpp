@@ -37,7 +37,7 @@ CompactForm padded(CompactForm form, const FormShape& shape);  // adds terms wit
 std::vector<double> numbers_of(const CompactForm& form);
 CompactForm with_numbers(CompactForm form, const std::vector<double>& numbers);
 
-// Returns the form with the least squares of relative errors (error_weight of table/regression.hpp) on the
+// Returns the form with the least squares of relative errors (error_weight()) on the
 // samples. If samples reach a limit, the form has the limits. Throws kNumeric if the samples do not determine
 // the form. If the first start is not sound, or if the result depends on the start, the best of the `sound`
 // forms within the shape is another start.
@@ -51,6 +51,10 @@ struct TexelError {
   double by_alpha = 0.0, by_specular = 0.0;
   double by_alpha_2 = 0.0, by_both = 0.0, by_specular_2 = 0.0;
 };
+// Returns the weight of an output's error when fits are compared: 1 / value, but at most 1 / `least`.
+// Pictures show errors relative to the value, but no errors of values below a fiftieth.
+double error_weight(double value, double least = 0.02);
+
 // Returns `weight` times the squared relative errors of `found` against the target of a row.
 TexelError row_error(const MappedTexel& found, const MappedTexel& wanted, double weight);
 using TexelErrors = std::function<std::vector<TexelError>(const std::vector<MappedTexel>& targets)>;

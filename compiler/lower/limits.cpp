@@ -1,8 +1,7 @@
-#include "lower/limits.hpp"
-
 #include <algorithm>
 
 #include "core/number_text.hpp"
+#include "lower/fit_file.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/number_text.hpp"
-#include "measure/joint_match.hpp"
 #include "measure/match.hpp"
 
 namespace remap {

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "measure/sweep_options.hpp"
-#include "measure/target_bank.hpp"
 #include "measure/target_pictures.hpp"
-#include "table/light.hpp"
 #include "table/table.hpp"
 
 namespace remap {

@@ -1,15 +1,13 @@
-#include "measure/family_probe.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "measure/picture_sums.hpp"
+#include "measure/objective.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/polynomial.hpp"
 #include "measure/probe.hpp"
+#include "measure/specular_response.hpp"
 
 namespace remap {
 namespace {
@@ -73,7 +71,7 @@ class FamilyProbe {
       std::size_t next = 0;
       double most = -1.0;
       for (std::size_t i = 0; i < gram.size(); ++i) {
-        if (std::find(pivots.begin(), pivots.end(), i) != pivots.end() || gram[i][i] <= most) continue;
+        if (std::ranges::find(pivots, i) != pivots.end() || gram[i][i] <= most) continue;
         next = i;
         most = gram[i][i];
       }
@@ -127,7 +125,7 @@ class FamilyProbe {
       std::vector<Radiances> pictures;
       for (const std::size_t point : points) pictures.push_back(picture(width, point));
       const Radiances& full = picture(width, kFinest);
-      const double allowed = picture_tolerance(model_) * *std::max_element(full.begin(), full.end());
+      const double allowed = picture_tolerance(model_) * *std::ranges::max_element(full);
       for (std::size_t point = 0; point <= kFinest; point += stride) {
         const Radiances expected =
             combined(pictures, family.weights_at(axis_.specular(chebyshev_point(point))));
@@ -145,7 +143,7 @@ class FamilyProbe {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
     for (std::size_t width = 0; width < alphas_.size(); ++width) {
       const Radiances& full = picture(width, kFinest);
-      const double brightest = *std::max_element(full.begin(), full.end());
+      const double brightest = *std::ranges::max_element(full);
       for (std::size_t i = 0; i <= degree; ++i)
         for (std::size_t j = 0; j <= degree; ++j)
           gram[i][j] += inner_product(picture(width, i * kFinest / degree).data(),

@@ -1,11 +1,10 @@
-#include "measure/joint_match.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "measure/function_cost.hpp"
-#include "measure/picture_sums.hpp"
-#include "remap/error.hpp"
+#include "measure/match.hpp"
+#include "measure/objective.hpp"
 
 namespace remap {
 namespace {
@@ -54,8 +53,7 @@ ceres::Solver::Options solver_options(double tolerance) {
 ceres::Solver::Summary solve(ceres::Problem* problem, double tolerance) {
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(tolerance), problem, &summary);
-  if (!summary.IsSolutionUsable())
-    throw Error(ErrorKind::kNumeric, "joint match: Ceres failed: " + summary.message);
+  if (!summary.IsSolutionUsable()) throw numeric_error("joint match: Ceres failed: " + summary.message);
   return summary;
 }
 
@@ -137,11 +135,8 @@ std::vector<RoleValues> JointMatcher::other_guesses() const {
 RoleValues JointMatcher::point_of(const RoleValues& shares) const {
   RoleValues point;
   for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
-    const Coordinate& coordinate = target_.coordinates()[i];
-    const auto named = shares.others.find(coordinate.name);
-    const double share =
-        named == shares.others.end() ? target_.value(shares, i % (kDiffuseCoordinate + 1)) : named->second;
-    target_.set_value(&point, i, share_of(coordinate.range, share));
+    const double share = target_.value(shares, i % (kDiffuseCoordinate + 1));
+    target_.set_value(&point, i, share_of(target_.coordinates()[i].range, share));
   }
   return point;
 }
@@ -210,7 +205,7 @@ Match JointMatcher::search(const RoleValues& guess, double tolerance) const {
 }
 
 bool JointMatcher::apart(const Match& a, const Match& b) const {
-  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+  return std::ranges::any_of(unknowns_, [&](const Unknown& unknown) {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
@@ -219,7 +214,7 @@ bool JointMatcher::apart(const Match& a, const Match& b) const {
 }
 
 bool JointMatcher::at_bound(const Match& match) const {
-  return std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+  return std::ranges::any_of(unknowns_, [&](const Unknown& unknown) {
     const double value = target_.value(match.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
     const bool may_be_least =

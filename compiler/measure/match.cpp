@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "measure/picture_sums.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/objective.hpp"
+#include "measure/target_pictures.hpp"
 
 namespace remap {
 namespace {
@@ -227,7 +227,7 @@ std::vector<std::size_t> Matcher::coarse_minima(const std::vector<double>& coeff
 Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima) {
   if (minima->empty()) *minima = coarse_minima(coefficients);
   for (std::size_t& node : *minima) node = descend(node, coefficients);
-  std::sort(minima->begin(), minima->end());
+  std::ranges::sort(*minima);
   minima->erase(std::unique(minima->begin(), minima->end()), minima->end());
 
   std::vector<Match> candidates;

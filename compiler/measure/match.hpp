@@ -1,13 +1,20 @@
-// This file finds the width and specular of the target that give the picture of the source. At each width,
-// the loss is a polynomial in the coordinate of the target's family, so its minimum over specular is found
-// exactly. The best width is first searched in the bank, and then found as the root of the derivative.
+// This file finds the parameters of the target that give the picture of the source. Matcher finds width and
+// specular. At each width, the loss is a polynomial in the coordinate of the target's family, so its minimum
+// over specular is found exactly. The best width is first searched in the bank, and then found as the root of
+// the derivative. JointMatcher (joint_match.cpp) varies all free parameters of the target at once. It uses
+// bounded non-linear least squares over the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one
+// and three stages). It is also used for targets that are not affine in specular. With several color
+// channels, parameters without color (such as width) are shared, and each channel has its own values of the
+// others. In a sweep, only this match uses Ceres.
 #pragma once
 
+#include <algorithm>
 #include <map>
+#include <span>
 #include <vector>
 
-#include "measure/polynomial.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/specular_response.hpp"
+#include "measure/target_pictures.hpp"
 #include "table/table.hpp"
 
 namespace remap {
@@ -64,6 +71,74 @@ class Matcher {
   // These are Gram matrices of the basis pictures, over all samples and over only the means.
   std::vector<std::vector<double>> power_, power_of_means_;
   std::map<std::size_t, Products> products_;
+};
+
+// This is the initial guess of a one-stage match, as fractions of the ranges of alpha, specular and diffuse.
+inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
+
+// A DiffuseSearch decides how a match treats the target's diffuse.
+enum class DiffuseSearch {
+  kNone,            // it keeps the value of the guess
+  kFree,            // it is searched
+  kOfBlackDiffuse,  // it is searched; 0 is an answer, not a bound that was hit, as the source has no diffuse
+};
+
+// A JointChannel is one color channel of the source.
+struct JointChannel {
+  std::vector<float> picture;
+  PictureWeights weights;
+  bool is_black() const { return remap::is_black(picture); }
+};
+
+class JointMatcher {
+ public:
+  // A grey match has one channel. The pictures of channels must be as long as the target's pictures. `target`
+  // must outlive the matcher.
+  JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, DiffuseSearch diffuse);
+
+  // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
+  // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
+  // not converge. It is also kUnstable if a search from another guess or from `rivals` ends with an error
+  // lower by more than 1 %, or within 1 % but with a parameter that differs by more than 10 %. Otherwise it
+  // is kClamped if a parameter is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
+  Match match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
+
+  // Returns the weighted relative RMS of the pixels of `pictures`, one per channel, against the source.
+  double picture_error(std::span<const std::vector<float>> pictures) const;
+
+  // Converts fractions (0 to 1) of the target's ranges to parameters. Parameters without a role get the
+  // fractions of alpha, specular and diffuse, in turn.
+  RoleValues point_of(const RoleValues& shares) const;
+
+  // Returns four other starting points, which show whether a match is unique: narrow and wide, weak and
+  // strong, bright and dark.
+  std::vector<RoleValues> other_guesses() const;
+
+ private:
+  // An Unknown is one number that a search varies: a coordinate of one channel, or a coordinate that all
+  // channels share.
+  struct Unknown {
+    std::size_t coordinate;
+    std::size_t channel;
+    bool shared;
+
+    bool concerns(std::size_t c) const { return shared || channel == c; }
+  };
+
+  std::vector<Unknown> unknowns() const;
+  std::vector<RoleValues> points_of(const double* values, const RoleValues& guess) const;
+  std::vector<std::vector<double>> gram(const double* values, const RoleValues& guess) const;
+  Match search(const RoleValues& guess, double tolerance) const;
+  RowStatus judge(const Match& match, const std::vector<Match>& rivals) const;
+  bool apart(const Match& a, const Match& b) const;
+  bool at_bound(const Match& match) const;
+
+  const TargetPictures& target_;
+  std::vector<JointChannel> channels_;
+  DiffuseSearch diffuse_;
+  std::vector<Unknown> unknowns_;
+  std::vector<bool> wanted_;  // coordinates that the search varies
+  double power_ = 0.0;
 };
 
 }  // namespace remap

@@ -1,18 +1,18 @@
-#include "measure/material_sample.hpp"
-
 #include <algorithm>
 #include <array>
 #include <mutex>
 #include <random>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
-#include "measure/joint_match.hpp"
-#include "measure/provenance.hpp"
+#include "measure/match.hpp"
+#include "measure/sweep.hpp"
+#include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/domain.hpp"
-#include "table/light.hpp"
+#include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
@@ -33,8 +33,8 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
   const Range whole = parameter.range;
   if (const auto given = options.ranges.find(parameter.name); given != options.ranges.end()) {
     if (whole.contains(given->second.min) && whole.contains(given->second.max)) return given->second;
-    throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + ": the range " +
-                                       range_text(given->second) + " is not within " + range_text(whole));
+    throw usage_error(model.name + ": " + parameter.name + ": the range " + range_text(given->second) +
+                      " is not within " + range_text(whole));
   }
   if (parameter.role != ParameterRole::kRoughness) return whole;
   const double narrow =
@@ -47,8 +47,8 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
 void require_roleless(const ModelDescription& model, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
-      throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
-                                         " and varies anyway (choose a parameter without a role)");
+      throw usage_error(model.name + ": " + name + " is the " + std::string(role_word(role)) +
+                        " and varies anyway (choose a parameter without a role)");
 }
 
 // Returns the source parameters that vary, each with the range in which it varies. If it is grey, it gets one
@@ -58,18 +58,17 @@ std::vector<ParameterDescription> varied_of(const MaterialSampleOptions& options
   require_roleless(source, options.varied);
   std::vector<ParameterDescription> all;
   for (ParameterDescription parameter : source.parameters) {
-    const bool named =
-        std::find(options.varied.begin(), options.varied.end(), parameter.name) != options.varied.end();
+    const bool named = std::ranges::find(options.varied, parameter.name) != options.varied.end();
     if (parameter.role == ParameterRole::kOther && !named) continue;
     parameter.range = range_of(options, source, parameter);
     parameter.grey = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
     all.push_back(std::move(parameter));
   }
   for (const auto& given : options.ranges)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const ParameterDescription& varied) { return varied.name == given.first; }))
-      throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
-                                         " has a range but does not vary (add --vary " + given.first + ")");
+    if (std::ranges::none_of(all,
+                             [&](const ParameterDescription& varied) { return varied.name == given.first; }))
+      throw usage_error(source.name + ": " + given.first + " has a range but does not vary (add --vary " +
+                        given.first + ")");
   return all;
 }
 
@@ -211,8 +210,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
               {"source_roughness", std::string(encoding_name(matching.source.roughness))}};
   ProbedModel target = matching.target;  // without matched parameters; the remaining ones are fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
-    return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
-           options.searched.end();
+    return std::ranges::find(options.searched, parameter.name) != options.searched.end();
   });
   add_noise("source", renderer, options.source, &comments);
   add_side("target", target, &comments);
@@ -227,8 +225,8 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments.emplace_back("seed", std::to_string(options.seed));
   ModelDescription source = matching.source;  // without varying parameters
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
-    return std::any_of(matching.varied.begin(), matching.varied.end(),
-                       [&](const ParameterDescription& v) { return v.name == parameter.name; });
+    return std::ranges::any_of(matching.varied,
+                               [&](const ParameterDescription& v) { return v.name == parameter.name; });
   });
   if (const std::string fixed = fixed_text(source); !fixed.empty())
     comments.emplace_back("source_fixed", fixed);
@@ -252,7 +250,7 @@ MaterialTable run_material_sample(const Renderer& any_renderer, const MaterialSa
                                 options.objective.lights.front());
   const ModelDescription source = recast(renderer.model(options.source), options.source_roles);
   const ModelDescription target = recast(renderer.model(options.target), options.target_roles);
-  if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: must be at least 1");
+  if (options.count == 0) throw usage_error("samples: must be at least 1");
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
   const Matching matching = make_matching(options, picture_taker, source, target);
   const std::vector<std::vector<double>> samples = draw(options, matching.varied);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
 #include "core/nearest_name.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 
@@ -12,7 +12,7 @@ Objective objective_preset(const std::string& name) {
   if (name == "natural-2" || name == "natural")
     return {"natural-2", {Light{65.0, 3.0}}, Weighting::kRelative, 0.1, 5.0};
   if (name == "paper") return {name, {Light{}}, Weighting::kUniform};
-  throw Error(ErrorKind::kUsage, "objective: unknown objective " + name + suggestion(name, kObjectives));
+  throw usage_error("objective: unknown objective " + name + suggestion(name, kObjectives));
 }
 
 Objective recorded_objective(const std::string& name) {

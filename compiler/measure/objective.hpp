@@ -1,7 +1,10 @@
-// This file holds the objective of a match: the lights of the pictures, and the weights of pixels and mean.
+// This file holds the objective of a match: the lights of the pictures, the weights of pixels and mean, and
+// sums over pixels.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,5 +65,38 @@ struct PictureWeights {
 // maximum of one picture.
 PictureWeights squared_weights(const Objective& objective, std::span<const float> source,
                                std::span<const float> view_cosines);
+
+// The following functions sum over the pixels of pictures in double precision. They add to a fixed number of
+// sums in a fixed order, so the result does not depend on how the compiler vectorises the loop.
+inline constexpr std::size_t kLanes = 4;
+using LaneSums = std::array<double, kLanes>;
+
+inline double total(const LaneSums& sums) { return (sums[0] + sums[1]) + (sums[2] + sums[3]); }
+
+// Calls `add(pixel, lane)` for every pixel; pixel i is in lane i modulo kLanes.
+template <typename Add>
+void for_each_pixel(std::size_t count, const Add& add) {
+  const std::size_t whole = count - count % kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) add(i + lane, lane);
+  for (std::size_t i = whole; i < count; ++i) add(i, i - whole);
+}
+
+inline double inner_product(const float* a, const float* b, std::size_t count) {
+  LaneSums sums{};
+  for_each_pixel(count, [&](std::size_t i, std::size_t lane) {
+    sums[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  });
+  return total(sums);
+}
+
+// Returns the sum of weights * a * b.
+inline double weighted_product(const float* weights, const float* a, const float* b, std::size_t count) {
+  LaneSums sums{};
+  for_each_pixel(count, [&](std::size_t i, std::size_t lane) {
+    sums[lane] += static_cast<double>(weights[i]) * static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  });
+  return total(sums);
+}
 
 }  // namespace remap

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 
 namespace remap {
 namespace {
@@ -15,11 +15,10 @@ void require_form(const Image& image, int resolution, const std::string& model) 
                         (image.channels == 1 || image.channels == 3) &&
                         image.values.size() == side * side * static_cast<std::size_t>(image.channels);
   if (!complete)
-    throw Error(ErrorKind::kInput, model + ": the picture is " + std::to_string(image.width) + " x " +
-                                       std::to_string(image.height) + " with " +
-                                       std::to_string(image.channels) + " channels (must be " +
-                                       std::to_string(resolution) + " x " + std::to_string(resolution) +
-                                       " with 1 or 3)");
+    throw input_error(model + ": the picture is " + std::to_string(image.width) + " x " +
+                      std::to_string(image.height) + " with " + std::to_string(image.channels) +
+                      " channels (must be " + std::to_string(resolution) + " x " +
+                      std::to_string(resolution) + " with 1 or 3)");
 }
 
 // Returns true if the picture at specular 0 is known to be black. It then need not be rendered.
@@ -41,8 +40,7 @@ PictureTaker::PictureTaker(const Renderer& renderer, const Objective& objective,
     pixels_.push_back(i);
     cosines_.push_back(cosines[i]);
   }
-  if (pixels_.empty())
-    throw Error(ErrorKind::kUsage, "resolution: no pixel shows the sphere (use a higher resolution)");
+  if (pixels_.empty()) throw usage_error("resolution: no pixel shows the sphere (use a higher resolution)");
 }
 
 std::vector<std::vector<float>> PictureTaker::take_channels(const Material& material) const {
@@ -57,7 +55,7 @@ std::vector<std::vector<float>> PictureTaker::take_channels(const Material& mate
       for (const std::size_t pixel : pixels_) {
         const float value = image.values[channels * pixel + c];
         if (!std::isfinite(value))
-          throw Error(ErrorKind::kInput, material.model + ": a pixel of the picture is infinite or NaN");
+          throw input_error(material.model + ": a pixel of the picture is infinite or NaN");
         rows[c].push_back(value);
         sum += static_cast<double>(value);
       }
@@ -75,8 +73,8 @@ std::vector<float> PictureTaker::take(const Material& material) const {
     const float red = rows[0][i], green = rows[1][i], blue = rows[2][i];
     const float tolerance = 1e-4f * std::max({red, green, blue, 1e-6f});
     if (std::fabs(red - green) > tolerance || std::fabs(red - blue) > tolerance)
-      throw Error(ErrorKind::kInput,
-                  material.model + ": the picture of a grey material is colored; its channels must be equal");
+      throw input_error(material.model +
+                        ": the picture of a grey material is colored; its channels must be equal");
   }
   return std::move(rows[1]);
 }

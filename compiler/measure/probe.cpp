@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "measure/picture_sums.hpp"
-#include "remap/error.hpp"
+#include "measure/objective.hpp"
 #include "renderer/fresnel.hpp"
 
 namespace remap {
@@ -28,7 +28,7 @@ constexpr int kMostHalvings = 20;
 // renderers.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
-double brightest(const Radiances& picture) { return *std::max_element(picture.begin(), picture.end()); }
+double brightest(const Radiances& picture) { return *std::ranges::max_element(picture); }
 
 // Returns the largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
 double line_deviation(const Radiances& low, const Radiances& high, double t, const Radiances& found) {
@@ -41,7 +41,7 @@ double line_deviation(const Radiances& low, const Radiances& high, double t, con
 }
 
 bool is_black(const Radiances& picture) {
-  return std::all_of(picture.begin(), picture.end(), [](float value) { return value == 0.0f; });
+  return std::ranges::all_of(picture, [](float value) { return value == 0.0f; });
 }
 
 // A WidthProbe renders a model at one width, at the ends and in the middle of its specular range.
@@ -60,8 +60,7 @@ class SpecularProbe {
       WidthProbe probe{alpha, take(alpha, range_.min), take(alpha, 0.5 * (range_.min + range_.max)),
                        take(alpha, range_.max)};
       if (!(brightest(probe.high) > 0.0))
-        throw Error(ErrorKind::kInput,
-                    model.name + ": the picture at full specular is black; a highlight is needed");
+        throw input_error(model.name + ": the picture at full specular is black; a highlight is needed");
       widths_.push_back(std::move(probe));
     }
   }
@@ -93,8 +92,7 @@ class SpecularProbe {
   // begin there, because it is then unknown.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
-    return std::all_of(widths_.begin(), widths_.end(),
-                       [](const WidthProbe& probe) { return is_black(probe.low); });
+    return std::ranges::all_of(widths_, [](const WidthProbe& probe) { return is_black(probe.low); });
   }
 
   double affine_deviation() const {
@@ -206,9 +204,8 @@ Range probe_widths(const PictureTaker& picture_taker, const ModelDescription& mo
     if (responds(clamped, clamped * inwards)) return clamped;
     double free = responds(middle, middle / inwards) ? middle : other;
     if (free == other && !responds(other, other / inwards))
-      throw Error(ErrorKind::kInput, model.name + ": no width from alpha " + number_text(alphas.min) +
-                                         " to " + number_text(alphas.max) +
-                                         " changes its picture (the roughness has no effect)");
+      throw input_error(model.name + ": no width from alpha " + number_text(alphas.min) + " to " +
+                        number_text(alphas.max) + " changes its picture (the roughness has no effect)");
     while (std::max(free / clamped, clamped / free) > step) {
       const double between = std::sqrt(clamped * free);
       (responds(between, between / inwards) ? free : clamped) = between;
@@ -257,7 +254,7 @@ DiffuseMatch match_diffuse(const PictureTaker& picture_taker, const ModelDescrip
   const double cross = inner_product(wanted.data(), given.data(), wanted.size());
   const double given_2 = inner_product(given.data(), given.data(), given.size());
   if (!(wanted_2 > 0.0) || !(given_2 > 0.0))
-    throw Error(ErrorKind::kInput, source.name + " to " + target.name + ": a diffuse picture is black");
+    throw input_error(source.name + " to " + target.name + ": a diffuse picture is black");
   const double left = std::max(0.0, wanted_2 - cross * cross / given_2);
   const double scale = cross / given_2;
   const double tolerance = std::max(ratio_tolerance(source), ratio_tolerance(target));

@@ -1,6 +1,9 @@
-// This file finds out from a model's pictures what its parameters do. It finds the law of specular, whether
-// diffuse adds to the highlight, and how strong the model's light is relative to another renderer's.
+// This file finds out from a model's pictures what its parameters do. It finds the law of specular, the few
+// pictures whose combinations give all others, whether diffuse adds to the highlight, and how strong the
+// model's light is relative to another renderer's.
 #pragma once
+
+#include <optional>
 
 #include "measure/picture_taker.hpp"
 #include "measure/specular_response.hpp"
@@ -40,5 +43,12 @@ bool light_matched(const ModelDescription& source, const ModelDescription& targe
 
 DiffuseMatch match_diffuse(const PictureTaker& picture_taker, const ModelDescription& source,
                            const ModelDescription& target);
+
+// Returns the family of `model` with the fewest pictures that suffice at three widths within `alphas`. The
+// model's canonical specular must be its own parameter. Tries polynomials of degree 2, 4, 8 and 16, in
+// specular and in its root. The first that reproduces the pictures between its nodes to picture_tolerance is
+// used. Returns nothing if there is none. Renders 9 to 198 pictures.
+std::optional<SpecularFamily> probe_family(const PictureTaker& picture_taker, const ModelDescription& model,
+                                           const Range& alphas);
 
 }  // namespace remap

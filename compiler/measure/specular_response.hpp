@@ -1,4 +1,5 @@
-// This file holds the law by which the pictures of a model depend on its specular parameter.
+// This file describes how pictures of a model depend on its specular: by a law, or as combinations of a few
+// pictures whose weights are polynomials. The loss of a match is then a polynomial, too.
 #pragma once
 
 #include <string_view>
@@ -7,6 +8,20 @@
 #include "lower/fit.hpp"
 
 namespace remap {
+
+// Returns the value at `x`, by Horner's rule. Without coefficients, it is 0.
+double polynomial_value(const std::vector<double>& coefficients, double x);
+
+std::vector<double> polynomial_derivative(const std::vector<double>& coefficients);
+
+std::vector<double> polynomial_product(const std::vector<double>& a, const std::vector<double>& b);
+
+// Returns the Lagrange basis polynomial on `nodes` that is 1 at node `k` and 0 at the others.
+std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::size_t k);
+
+// Returns the places of all local minima over `range`, including its ends. There is at least one, and the
+// smallest value comes first. If the vertex of a parabola is out of the range, the closest end is used.
+std::vector<double> polynomial_minima(const std::vector<double>& coefficients, const Range& range);
 
 // A SpecularLaw is the way in which pictures depend on a model's specular parameter. All laws except kOther
 // have a canonical coordinate in which the picture is base + specular * slope.

@@ -6,18 +6,19 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "look/image_similarity.hpp"
 #include "measure/block_match.hpp"
-#include "measure/family_probe.hpp"
-#include "measure/joint_match.hpp"
+#include "measure/match.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/provenance.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/probe.hpp"
+#include "measure/sweep_options.hpp"
+#include "measure/target_pictures.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/domain.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
@@ -48,21 +49,20 @@ Range sampled_alphas(const std::vector<MappedTexel>& samples) {
 
 void require_options(const SweepOptions& options, const ModelDescription& source,
                      const ModelDescription& target) {
-  if (options.samples.empty()) throw Error(ErrorKind::kUsage, "samples: at least one is needed");
+  if (options.samples.empty()) throw usage_error("samples: at least one is needed");
   if (options.samples.size() > kMostSweepSamples)
-    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(options.samples.size()) +
-                                       " are too many (at most " + std::to_string(kMostSweepSamples) + ")");
+    throw usage_error("samples: " + std::to_string(options.samples.size()) + " are too many (at most " +
+                      std::to_string(kMostSweepSamples) + ")");
   if (options.stages < 1 || options.stages > 3)
-    throw Error(ErrorKind::kUsage,
-                "stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");
+    throw usage_error("stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");
   if (!has_diffuse(options)) return;
   target.parameter(ParameterRole::kDiffuse);  // throws if the target has none to match
   // A source without a diffuse parameter may still have diffuse light, if one base color sets both lobes.
   if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
   const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))
-    throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) +
-                                       " is out of range (" + range_text(diffuses) + ")");
+    throw usage_error(source.name + ": diffuse " + number_text(options.diffuse) + " is out of range (" +
+                      range_text(diffuses) + ")");
 }
 
 void require_alphas(const SweepOptions& options, const ModelDescription& source) {

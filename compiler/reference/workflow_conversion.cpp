@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 #if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
@@ -68,10 +68,9 @@ constexpr std::size_t kNetworkInputs = 6, kNetworkOutputs = 4;
 void require_network(const Network& network, const std::string& context) {
   const std::size_t inputs = network.inputs.size(), outputs = network.outputs.size();
   if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !network.layers.empty()) return;
-  throw Error(ErrorKind::kInput,
-              context + ": a network of " + std::to_string(inputs) + " inputs and " +
-                  std::to_string(outputs) +
-                  " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
+  throw input_error(context + ": a network of " + std::to_string(inputs) + " inputs and " +
+                    std::to_string(outputs) +
+                    " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
 }
 
 std::string width_meaning(RoughnessEncoding width) {
@@ -103,8 +102,8 @@ std::vector<MaterialParameter> parameters(const MetallicWorkflow& workflow) {
 template <std::size_t Count, typename Pointer>
 std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what) {
   if (given.size() != Count)
-    throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") + std::to_string(given.size()) +
-                                       " rows of " + what + " (give " + std::to_string(Count) + ")");
+    throw usage_error(std::string("workflow conversion: ") + std::to_string(given.size()) + " rows of " +
+                      what + " (give " + std::to_string(Count) + ")");
   std::array<Pointer, Count> all{};
   std::copy(given.begin(), given.end(), all.begin());
   return all;
@@ -154,17 +153,15 @@ std::size_t block_by(const Network& network, const code::Conventions& use, const
 
 void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
   if (conversion.is_to_metallic() == to_metallic) return;
-  throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") +
-                                     std::string(formula_name(conversion.formula)) + " leads from " +
-                                     conversion.source_model() + " to " + conversion.target_model() +
-                                     ", not the other way (call the other function)");
+  throw usage_error(std::string("workflow conversion: ") + std::string(formula_name(conversion.formula)) +
+                    " leads from " + conversion.source_model() + " to " + conversion.target_model() +
+                    ", not the other way (call the other function)");
 }
 
 bool has_value_beyond(const SpecularMaterial& material) {
   const auto is_beyond = [](float value) { return !(value >= 0.0f && value <= 1.0f); };
-  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_beyond) ||
-         std::any_of(material.specular.begin(), material.specular.end(), is_beyond) ||
-         is_beyond(material.width);
+  return std::ranges::any_of(material.diffuse, is_beyond) ||
+         std::ranges::any_of(material.specular, is_beyond) || is_beyond(material.width);
 }
 
 float width_of(const code::Texel& texel, const code::Conventions& use) {
@@ -192,9 +189,8 @@ void require_valid(const WorkflowConversion& conversion, const std::string& cont
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || conversion.metallic.dielectric_f0 == 0.0)
-    throw Error(ErrorKind::kInput, context +
-                                       ": formula khronos needs a dielectric F0 above 0 and scaled diffuse "
-                                       "on both sides");
+    throw input_error(context +
+                      ": formula khronos needs a dielectric F0 above 0 and scaled diffuse on both sides");
 }
 
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion) {

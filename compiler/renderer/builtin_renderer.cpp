@@ -7,9 +7,9 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "look/brdf_models.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/renderer.hpp"
@@ -125,14 +125,13 @@ class BuiltinRenderer final : public Renderer {
 
 void require_scene(const Scene& scene) {
   if (scene.resolution < 1 || scene.resolution > 16384)
-    throw Error(ErrorKind::kUsage,
-                "resolution: " + std::to_string(scene.resolution) + " is out of range (1 to 16384)");
+    throw usage_error("resolution: " + std::to_string(scene.resolution) + " is out of range (1 to 16384)");
   if (scene.samples_per_axis < 1 || scene.samples_per_axis > 64)
-    throw Error(ErrorKind::kUsage,
-                "pixel samples: " + std::to_string(scene.samples_per_axis) + " is out of range (1 to 64)");
+    throw usage_error("pixel samples: " + std::to_string(scene.samples_per_axis) +
+                      " is out of range (1 to 64)");
   if (!(scene.light.distance > 1.0))
-    throw Error(ErrorKind::kUsage, "light distance: " + number_text(scene.light.distance) +
-                                       " is inside the sphere (use more than 1, its radius)");
+    throw usage_error("light distance: " + number_text(scene.light.distance) +
+                      " is inside the sphere (use more than 1, its radius)");
 }
 
 std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const Scene& scene) const {

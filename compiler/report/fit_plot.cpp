@@ -2,19 +2,97 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <set>
 #include <sstream>
+#include <sys/wait.h>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
-#include "report/gnuplot.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
+
+// These are colors that color-blind readers can distinguish (Okabe and Ito 2008).
+constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00", "#009E73",
+                                                    "#CC79A7", "#E69F00", "#56B4E9"};
+
+// Runs `gnuplot argument` and returns its exit code, or -1 if a signal ended it.
+int run(const std::string& argument, const std::string& output, const std::string& complaints) {
+  constexpr int kNotFound = 127;  // the shell's code for a program that cannot be started
+  const std::string command = "exec gnuplot " + shell_word(argument) + " </dev/null >" + shell_word(output) +
+                              " 2>" + shell_word(complaints);
+  const int status = std::system(command.c_str());
+  if (!WIFEXITED(status)) return -1;
+  if (WEXITSTATUS(status) == kNotFound)
+    throw output_error("--plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
+                       " (install gnuplot, on Debian the package gnuplot-nox)");
+  return WEXITSTATUS(status);
+}
+
+// Returns the line of gnuplot's message that states the error. The lines before it only show the place.
+std::string complaint(const std::string& text) {
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    if (line.find("line ") != std::string::npos || line.find("rror") != std::string::npos) return line;
+    begin = end + 1;
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+// Throws kOutput with the name of Debian's package if gnuplot cannot be started.
+void require_gnuplot() {
+  const ScratchFolder folder("remapc-plot");
+  const int code = run("--version", folder.file("output"), folder.file("complaints"));
+  if (code != 0)
+    throw output_error("--plot: gnuplot --version failed (" + std::to_string(code) +
+                       ", install the package gnuplot-nox)");
+}
+
+// Returns the gnuplot commands with which a plot starts: an SVG or PNG with a light grid.
+std::string plot_style(bool is_png) {
+  return std::string("set terminal ") + (is_png ? "pngcairo" : "svg") +
+         " size 1280,1040 enhanced font 'Helvetica,13' background rgb 'white'\n"
+         "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+         "set tics textcolor rgb 'black'\n";
+}
+
+// Quotes `text` for a script, so that no character has a special meaning for gnuplot. In double quotes,
+// gnuplot would run a command between backquotes.
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : plain(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// Writes the SVG or PNG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if
+// gnuplot cannot be started or fails. The message has the first line of gnuplot's error.
+void write_drawing(const std::filesystem::path& path, const std::string& script) {
+  const ScratchFolder folder("remapc-plot");
+  write_file(folder.file("script"), script);
+  const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
+  const std::string complaints = read_file(folder.file("complaints"));
+  // Messages with exit code 0 are warnings.
+  if (code != 0)
+    throw output_error("--plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
+  const std::string picture = read_file(folder.file("output"));
+  // gnuplot does not detect that a disk is full.
+  if (picture.find("</svg>") == std::string::npos && picture.find("IEND") == std::string::npos)
+    throw output_error(
+        "--plot: the output of gnuplot is incomplete (check the free space for temporary files)");
+  write_file(path, picture);
+}
 
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
@@ -47,7 +125,7 @@ class Plot {
 
   std::string script(bool is_png) {
     write_data();
-    out_ << plot_style(1280, 1040, is_png)
+    out_ << plot_style(is_png)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
          << gnuplot_text(fit_.source.model + " to " + fit_.target.model + ", " +
                          std::to_string(rows_.size()) + " rows of " + fit_.table.name)
@@ -77,7 +155,7 @@ class Plot {
     }
     out_ << "$shown << EOD\n";
     for (const TableRow& row : rows_)
-      if (std::find(shown_.begin(), shown_.end(), row.alpha1) != shown_.end())
+      if (std::ranges::find(shown_, row.alpha1) != shown_.end())
         out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << ' ' << at_limit(row)
              << '\n';
     out_ << "EOD\n";
@@ -195,7 +273,7 @@ bool is_png(const std::filesystem::path& path) { return path.extension() == ".pn
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg" && !is_png(path))
-    throw Error(ErrorKind::kUsage, "--plot " + path.string() + ": the file name must end with .svg or .png");
+    throw usage_error("--plot " + path.string() + ": the file name must end with .svg or .png");
   require_gnuplot();
   create_parent(path);
 }

@@ -7,40 +7,34 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
 #include "look/brdf_models.hpp"
 #include "look/image_similarity.hpp"
 #include "look/lit_sphere.hpp"
 #include "lower/interpreter.hpp"
-#include "measure/parameter_roles.hpp"
 #include "measure/picture_taker.hpp"
 #include "measure/sweep.hpp"
-#include "remap/error.hpp"
+#include "measure/sweep_options.hpp"
 #include "report/contact_sheet.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
-std::string comment(const Fit& fit, const std::string& key) {
-  const auto found = fit.table.comments.find(key);
-  return found == fit.table.comments.end() ? "" : found->second;
-}
-
 // Returns one side of the fit, ready to be rendered. Its response converts between the fit's specular and the
 // model's own parameter.
 ProbedModel make_end(const Renderer& renderer, const Fit& fit, const std::string& role, const ModelSide& side,
                      double exposure, double diffuse) {
   const ParameterRoles roles =
-      recorded_roles(comment(fit, role + "_roughness_parameter"), comment(fit, role + "_specular"),
-                     comment(fit, role + "_fixed"));
+      recorded_roles(fit.table.comment(role + "_roughness_parameter"), fit.table.comment(role + "_specular"),
+                     fit.table.comment(role + "_fixed"));
   ProbedModel end{recast(renderer.model(side.model), roles), {SpecularLaw::kAffine}, exposure};
   if (diffuse > 0.0 && !end.model.has(ParameterRole::kDiffuse))
-    throw Error(ErrorKind::kUsage,
-                "--diffuse: " + side.model + " has no diffuse reflectance (remove this option)");
+    throw usage_error("--diffuse: " + side.model + " has no diffuse reflectance (remove this option)");
   if (end.model.parameter(ParameterRole::kSpecular).name != side.specular)
     end.response = specular_response(renderer, end.model);
   return end;
@@ -139,7 +133,7 @@ class LampStudio {
         options_(options),
         light_(light),
         source_(make_end(renderer, fit, "source", fit.source,
-                         parse_number(comment(fit, kLightScaleComment)).value_or(1.0), options.diffuse)),
+                         parse_number(fit.table.comment(kLightScaleComment)).value_or(1.0), options.diffuse)),
         target_(make_end(renderer, fit, "target", fit.target, 1.0, options.diffuse)) {}
 
   RowPictures operator()(const PreviewFigure& figure, const RowProgress& progress) const {
@@ -217,9 +211,8 @@ class EnvironmentStudio {
 
   static BrdfModel lobe_of(const ModelSide& side, const Environment& environment) {
     if (!is_linear_lobe(side.model))
-      throw Error(ErrorKind::kUsage,
-                  "--light " + environment.name + ": cannot light " + side.model +
-                      ", which is not a built-in model with a scale or F0 (use --light 45)");
+      throw usage_error("--light " + environment.name + ": cannot light " + side.model +
+                        ", which is not a built-in model with a scale or F0 (use --light 45)");
     return builtin_brdf(side.model);
   }
 
@@ -240,15 +233,15 @@ PreviewFigure converted(const Fit& fit, const std::vector<double>& specular, con
 
 void require_options(const PreviewOptions& options) {
   if (options.lights.empty() || options.shapes.empty())
-    throw Error(ErrorKind::kUsage, "preview: at least one light and one shape are required");
+    throw usage_error("preview: at least one light and one shape are required");
   if (options.specular.size() != 1 && options.specular.size() != 3)
-    throw Error(ErrorKind::kUsage, "--specular: " + std::to_string(options.specular.size()) +
-                                       " values given (use one value, or R,G,B)");
+    throw usage_error("--specular: " + std::to_string(options.specular.size()) +
+                      " values given (use one value, or R,G,B)");
   for (const double alpha : options.alphas)
     if (!(alpha > 0.0 && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "--alpha: " + number_text(alpha) + " is outside 0 to 1");
+      throw usage_error("--alpha: " + number_text(alpha) + " is outside 0 to 1");
   if (!(options.diffuse >= 0.0 && options.diffuse <= 1.0))
-    throw Error(ErrorKind::kUsage, "--diffuse: " + number_text(options.diffuse) + " is outside 0 to 1");
+    throw usage_error("--diffuse: " + number_text(options.diffuse) + " is outside 0 to 1");
 }
 
 std::string short_number(double value) { return number_text(rounded(value, 3)); }
@@ -269,7 +262,7 @@ std::string row_label(const std::vector<double>& specular, const PreviewFigure& 
 std::vector<Shape> lit_shapes(const PreviewLight& light, const std::vector<Shape>& shapes) {
   if (std::holds_alternative<Light>(light.light)) return shapes;
   if (std::ranges::find(shapes, Shape::kSphere) == shapes.end())
-    throw Error(ErrorKind::kUsage, "--light " + light.name + ": lights spheres only (add --shape sphere)");
+    throw usage_error("--light " + light.name + ": lights spheres only (add --shape sphere)");
   return {Shape::kSphere};
 }
 
@@ -330,9 +323,9 @@ Environment environment_of(const std::string& name_or_file, double exposure) {
   std::vector<Environment> known = builtin_environments();
   const auto found = std::ranges::find(known, name_or_file, &Environment::name);
   if (found == known.end() && !std::filesystem::exists(name_or_file))
-    throw Error(ErrorKind::kUsage, "--light: unknown light '" + name_or_file +
-                                       "' (choose headlight, degrees from -180 to 180, " +
-                                       environment_names(known) + ", or give an EXR or HDR file)");
+    throw usage_error("--light: unknown light '" + name_or_file +
+                      "' (choose headlight, degrees from -180 to 180, " + environment_names(known) +
+                      ", or give an EXR or HDR file)");
   Environment environment = found == known.end() ? load_environment(name_or_file) : *found;
   const double scale = exposure / mean_luminance(environment);
   return exposed(std::move(environment), scale);
@@ -344,7 +337,7 @@ PreviewLight preview_light(const std::string& word, double distance, double expo
   const auto angle = word == "headlight" ? 0.0 : parse_number(word);
   if (!angle) return {word, environment_of(word, exposure)};
   if (!(*angle > -180.0 && *angle <= 180.0))
-    throw Error(ErrorKind::kUsage, "--light: " + word + " is outside -180 to 180 degrees");
+    throw usage_error("--light: " + word + " is outside -180 to 180 degrees");
   return {word == "headlight" ? word : word + " degrees", Light{*angle, distance}};
 }
 

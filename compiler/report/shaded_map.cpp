@@ -1,11 +1,10 @@
-#include "report/shaded_map.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "look/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/warp_report.hpp"
 
 namespace remap {
 namespace {
@@ -136,7 +135,7 @@ Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vec
                    StrokeSide side) {
   Image marked = picture;
   for (float& value : marked.values) value = 1.0f - kDimmed + kDimmed * value;
-  const std::uint32_t last = *std::max_element(grid.texels.begin(), grid.texels.end());
+  const std::uint32_t last = *std::ranges::max_element(grid.texels);
   std::vector<int> stroke_of(std::size_t{last} + 1, -1);
   for (std::size_t k = 0; k < strokes.size(); ++k)
     for (const std::uint32_t texel : strokes[k].*side)

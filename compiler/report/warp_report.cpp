@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "core/base64.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "look/image.hpp"
-#include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/shaded_map.hpp"
 #include "warp/coordinates.hpp"
 
 namespace remap {
@@ -84,12 +83,12 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
           0.525 * std::max(height, width / 3.0)};
 }
 
-// Draws the layers `width` pixels wide, with the aspect ratio of the box. The second coordinate points up. If
+// Draws the layers kSide pixels wide, with the aspect ratio of the box. The second coordinate points up. If
 // points have only one dimension, they are spread along it to be visible. Lines mark the zeros.
-Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
-  const double scale = 0.5 * static_cast<double>(width) / box.half_width;
+Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box) {
+  const double scale = 0.5 * kSide / box.half_width;
   Image picture =
-      blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
+      blank_picture(kSide, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
   draw_lines(box, scale, &picture);
   for (const PlottedPoints& layer : layers)
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
@@ -209,8 +208,7 @@ std::string report_html(const WarpReport& report) {
     html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return html +
          "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker light "
-         "from "
-         "the lower right and uniform surroundings. Highlights are as wide as the material's lobe.</p>\n"
+         "from the lower right and uniform surroundings. Highlights are as wide as the material's lobe.</p>\n"
          "</body>\n</html>\n";
 }
 
@@ -239,20 +237,19 @@ WarpReport warp_report(const WarpMaterial& source, const WarpMaterial& target,
   std::vector<PlottedPoints> all = before;
   all.insert(all.end(), after.begin(), after.end());
   const PlotBox box = box_around(all);
-  report.source_space = appearance_plot(own, box, kSide);
-  report.target_space = appearance_plot(goal, box, kSide);
-  report.before = appearance_plot(before, box, kSide);
-  report.after = appearance_plot(after, box, kSide);
+  report.source_space = appearance_plot(own, box);
+  report.target_space = appearance_plot(goal, box);
+  report.before = appearance_plot(before, box);
+  report.after = appearance_plot(after, box);
   return report;
 }
 
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html")
-    throw Error(ErrorKind::kUsage, "--report " + path.string() + ": the file name must end with .html");
+    throw usage_error("--report " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpReport& report) {
-  require_report_path(path);
   write_file(path, report_html(report));
 }
 

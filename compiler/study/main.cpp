@@ -1,7 +1,7 @@
 // This is remap-study. It measures the accuracy of converters, under environment maps and between workflows.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "study/studies.hpp"
+#include "study/study_options.hpp"
 
 int main(int argc, char** argv) {
   remap::Command app(

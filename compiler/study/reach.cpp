@@ -9,14 +9,14 @@
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "lower/interpreter.hpp"
-#include "measure/family_probe.hpp"
-#include "measure/picture_sums.hpp"
+#include "measure/objective.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/polynomial.hpp"
+#include "measure/probe.hpp"
+#include "measure/specular_response.hpp"
 #include "measure/sweep.hpp"
 #include "remap/version.hpp"
 #include "table/csv.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
@@ -170,8 +170,7 @@ class FitStudy {
         widths_(taker_, probed(taker_, renderer, fit_.target.model, alphas_), kNarrowest * alphas_.min),
         speculars_(options.speculars.empty() ? Range{0.0, source_.linear_range().max}
                                              : options.speculars[index]) {
-    const auto scale = fit_.table.comments.find(kLightScaleComment);
-    if (scale != fit_.table.comments.end()) source_.exposure = parse_number(scale->second).value_or(1.0);
+    source_.exposure = parse_number(fit_.table.comment(kLightScaleComment)).value_or(1.0);
   }
 
   // Returns the materials of one source width.

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "build/fit_folder.hpp"
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "study/environments.hpp"
-#include "study/studies.hpp"
 #include "study/study_options.hpp"
 
 namespace remap {
@@ -21,7 +20,7 @@ struct EnvironmentsCommand {
 StudyPair parse_pair(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
-    throw Error(ErrorKind::kUsage, "--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
+    throw usage_error("--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
@@ -44,7 +43,7 @@ std::vector<StudyPair> chosen_pairs(const EnvironmentsCommand& command) {
 EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = command.study;
   options.pairs = chosen_pairs(command);
-  std::sort(options.alphas.begin(), options.alphas.end());
+  std::ranges::sort(options.alphas);
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
   options.environments = read_environments(command.shared);
   if (const auto folder = fit_folder_of(command.shared); !folder.empty()) options.fits = load_fits(folder);

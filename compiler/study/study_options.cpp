@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "build/fit_folder.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "look/image.hpp"
-#include "remap/error.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 
@@ -38,8 +38,7 @@ void add_output_options(Command& app, StudyOptions& options, unsigned& jobs, con
 
 std::vector<Environment> read_environments(const StudyOptions& options) {
   if (!(options.exposure > 0.0))
-    throw Error(ErrorKind::kUsage,
-                "--exposure: " + number_text(options.exposure) + " is out of range (must be above 0)");
+    throw usage_error("--exposure: " + number_text(options.exposure) + " is out of range (must be above 0)");
   std::vector<Environment> environments;
   for (const auto& path : options.environments) environments.push_back(load_environment(path));
   if (environments.empty()) environments = builtin_environments();
@@ -57,8 +56,7 @@ std::filesystem::path fit_folder_of(const StudyOptions& options) {
 }
 
 void prepare_folder(const StudyOptions& options, const std::string& name) {
-  if (options.pictures && options.folder.empty())
-    throw Error(ErrorKind::kUsage, "--pictures requires -o FOLDER");
+  if (options.pictures && options.folder.empty()) throw usage_error("--pictures requires -o FOLDER");
   if (options.folder.empty()) return;
   create_parent(options.folder / "results");
   std::set<std::filesystem::path> found;

@@ -1,4 +1,5 @@
-// This file holds the options that the studies share: environment maps, rendering, progress and output.
+// This file declares the subcommands of `remap-study`, and holds the options that the studies share:
+// environment maps, rendering, progress and output.
 #pragma once
 
 #include <filesystem>
@@ -63,5 +64,9 @@ void write_results(const StudyOptions& options, const std::string& name, const s
 // Writes one sheet for each environment to FOLDER/PREFIX_<environment>.png.
 void write_sheets(const StudyOptions& options, const std::string& prefix,
                   const std::vector<Environment>& environments, const std::vector<Image>& sheets);
+
+void add_environments_study(Command& study);
+void add_reach_study(Command& study);
+void add_workflows_study(Command& study);
 
 }  // namespace remap

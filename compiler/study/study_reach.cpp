@@ -6,10 +6,9 @@
 #include "build/fit_folder.hpp"
 #include "core/errors.hpp"
 #include "study/reach.hpp"
-#include "study/studies.hpp"
 #include "study/study_options.hpp"
 #include "table/table.hpp"
-#include "worker/renderer_options.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remap {
 namespace {

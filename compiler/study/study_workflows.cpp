@@ -4,7 +4,6 @@
 
 #include "build/fit_folder.hpp"
 #include "core/input_file.hpp"
-#include "study/studies.hpp"
 #include "study/study_options.hpp"
 #include "study/workflows.hpp"
 

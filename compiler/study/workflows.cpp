@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "core/report_text.hpp"
@@ -13,13 +14,12 @@
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/sheet_labels.hpp"
 #include "table/csv.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::size_t kSheetRowsAGroup = 2;
+constexpr std::size_t kSheetRowsAGroup = 2, kFamilyKinds = 3;
 constexpr double kLeastAlpha = 0.01;
 constexpr const char* kHeadlight = "headlight";  // name of the light in the table
 constexpr const char* kColumns[] = {"material",  "group", "alpha", "diffuse_r", "diffuse_g",
@@ -41,6 +41,45 @@ MetallicReflection reflection_of(const MetallicWorkflow& workflow) {
 
 WorkflowMethod method_of(const std::string& name, const WorkflowConversion& conversion) {
   return {name, conversion, reflection_of(conversion.metallic)};
+}
+
+// Returns the methods for plain diffuse: equation (3) with both means and with F0 0.03 and 0.04, Khronos'
+// solver, the networks in `learned`, and the projection. Khronos' solver is made for the glTF convention, but
+// importers apply it to plain maps. Networks for other conventions are skipped.
+std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned) {
+  const auto plain = [](WorkflowFormula formula, double f0) {
+    return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
+  };
+  std::vector<WorkflowMethod> methods = {
+      method_of("equation (3), mean, 0.03", plain(ClosedFormula::kEquation3, kPaperDielectricF0)),
+      method_of("equation (3), weighted, 0.03", plain(ClosedFormula::kEquation3ByAlbedo, kPaperDielectricF0)),
+      method_of("equation (3), mean, 0.04", plain(ClosedFormula::kEquation3, kCommonDielectricF0)),
+      method_of("equation (3), weighted, 0.04",
+                plain(ClosedFormula::kEquation3ByAlbedo, kCommonDielectricF0))};
+  WorkflowMethod khronos = method_of(
+      "Khronos", conversion_by(ClosedFormula::kKhronos, kCommonDielectricF0, DiffuseConvention::kScaled));
+  khronos.reflection.diffuse_of_albedo = 1.0;
+  methods.push_back(khronos);
+  for (const WorkflowFit& network : learned) {
+    WorkflowConversion conversion = network.conversion;
+    if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
+    conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
+    methods.push_back(method_of(network.id, conversion));
+  }
+  methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));
+  return methods;
+}
+
+// Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
+// solver is made for this convention.
+std::vector<WorkflowMethod> gltf_methods() {
+  const auto scaled = [](WorkflowFormula formula) {
+    return conversion_by(std::move(formula), kCommonDielectricF0, DiffuseConvention::kScaled);
+  };
+  return {method_of("equation (3), mean", scaled(ClosedFormula::kEquation3)),
+          method_of("equation (3), weighted", scaled(ClosedFormula::kEquation3ByAlbedo)),
+          method_of("Khronos", scaled(ClosedFormula::kKhronos)),
+          method_of("projection", scaled(Projection{kCleanPrior}))};
 }
 
 // Converts reflectances to the parameters of a conversion.
@@ -169,21 +208,18 @@ std::vector<Image> sheets_of(const WorkflowsOptions& options, const LitReflectan
 
 void require_options(const WorkflowsOptions& options) {
   if (options.materials.empty() || options.alphas.empty() || options.environments.empty())
-    throw Error(ErrorKind::kUsage,
-                "workflows: at least one material, one alpha and one environment are required");
+    throw usage_error("workflows: at least one material, one alpha and one environment are required");
   require_names_differ(options.environments);
   for (const Environment& environment : options.environments)
     if (environment.name == kHeadlight)
-      throw Error(ErrorKind::kUsage,
-                  "environment: the name headlight means the light at the camera (rename the file)");
+      throw usage_error("environment: the name headlight means the light at the camera (rename the file)");
   for (const double alpha : options.alphas)
     if (!(alpha >= kLeastAlpha && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
+      throw usage_error("alpha: " + number_text(alpha) + " is out of range (0.01 to 1)");
   for (const StudyMaterial& material : options.materials)
     if (material.alpha >= options.alphas.size())
-      throw Error(ErrorKind::kUsage, material.name + ": alpha index " + std::to_string(material.alpha) +
-                                         " is out of range (" + std::to_string(options.alphas.size()) +
-                                         " alphas)");
+      throw usage_error(material.name + ": alpha index " + std::to_string(material.alpha) +
+                        " is out of range (" + std::to_string(options.alphas.size()) + " alphas)");
 }
 
 float stored(float linear) {
@@ -227,42 +263,6 @@ RoundTripErrors round_trip(const WorkflowMethod& method, const WorkflowConversio
 }
 
 }  // namespace
-
-std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned) {
-  using namespace remap;
-  const auto plain = [](WorkflowFormula formula, double f0) {
-    return conversion_by(std::move(formula), f0, DiffuseConvention::kPlain);
-  };
-  std::vector<WorkflowMethod> methods = {
-      method_of("equation (3), mean, 0.03", plain(ClosedFormula::kEquation3, kPaperDielectricF0)),
-      method_of("equation (3), weighted, 0.03", plain(ClosedFormula::kEquation3ByAlbedo, kPaperDielectricF0)),
-      method_of("equation (3), mean, 0.04", plain(ClosedFormula::kEquation3, kCommonDielectricF0)),
-      method_of("equation (3), weighted, 0.04",
-                plain(ClosedFormula::kEquation3ByAlbedo, kCommonDielectricF0))};
-  WorkflowMethod khronos = method_of(
-      "Khronos", conversion_by(ClosedFormula::kKhronos, kCommonDielectricF0, DiffuseConvention::kScaled));
-  khronos.reflection.diffuse_of_albedo = 1.0;
-  methods.push_back(khronos);
-  for (const WorkflowFit& network : learned) {
-    WorkflowConversion conversion = network.conversion;
-    if (conversion.specular.diffuse != DiffuseConvention::kPlain) continue;
-    conversion.specular.width = conversion.metallic.width = RoughnessEncoding::kAlpha;
-    methods.push_back(method_of(network.id, conversion));
-  }
-  methods.push_back(method_of("projection", plain(Projection{kCleanPrior}, kCommonDielectricF0)));
-  return methods;
-}
-
-std::vector<WorkflowMethod> gltf_methods() {
-  using namespace remap;
-  const auto scaled = [](WorkflowFormula formula) {
-    return conversion_by(std::move(formula), kCommonDielectricF0, DiffuseConvention::kScaled);
-  };
-  return {method_of("equation (3), mean", scaled(ClosedFormula::kEquation3)),
-          method_of("equation (3), weighted", scaled(ClosedFormula::kEquation3ByAlbedo)),
-          method_of("Khronos", scaled(ClosedFormula::kKhronos)),
-          method_of("projection", scaled(Projection{kCleanPrior}))};
-}
 
 std::size_t progress_steps(const WorkflowsOptions& options) {
   return options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution)) +
@@ -336,7 +336,7 @@ std::string workflows_csv(const WorkflowsOptions& options,
 
 std::vector<RoundTripErrors> study_round_trips(const std::vector<WorkflowFit>& learned, std::size_t count,
                                                std::uint64_t seed, unsigned jobs) {
-  if (count == 0) throw Error(ErrorKind::kUsage, "--family-count must be at least 1");
+  if (count == 0) throw usage_error("--family-count must be at least 1");
   std::vector<WorkflowMethod> methods = plain_methods(learned);
   std::vector<WorkflowConversion> there;  // conversions to specular by equation (2), one for each method
   for (WorkflowMethod& method : methods) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/workflow_fit.hpp"
+#include "lower/fit_file.hpp"
 #include "reference/workflow_conversion.hpp"
 #include "study/lit_reflectances.hpp"
 
@@ -19,14 +19,6 @@ struct WorkflowMethod {
   WorkflowConversion conversion;  // converts to metallic; both ends have alpha as width
   MetallicReflection reflection;  // reflectances of the resulting metallic material
 };
-
-// Returns the methods for plain diffuse: equation (3) with both means and with F0 0.03 and 0.04, Khronos'
-// solver, the networks in `learned`, and the projection. Khronos' solver is made for the glTF convention, but
-// importers apply it to plain maps. Networks for other conventions are skipped.
-std::vector<WorkflowMethod> plain_methods(const std::vector<WorkflowFit>& learned);
-// Returns the methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos'
-// solver is made for this convention.
-std::vector<WorkflowMethod> gltf_methods();
 
 // A StudyMaterial is a material of the specular workflow. Its diffuse is a reflectance.
 struct StudyMaterial {
@@ -92,7 +84,6 @@ enum class FamilyKind {
   kStored,   // like kExact, stored with 8 bits in sRGB
   kAuthored  // like assets: base color uniform in sRGB, metallic 0 or 1 in four of five; 8 bits
 };
-inline constexpr std::size_t kFamilyKinds = 3;
 
 // A RoundTripErrors holds RMS errors of one method over one kind of materials. Base color is compared in
 // sRGB, over all channels.

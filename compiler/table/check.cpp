@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/report_text.hpp"
-#include "remap/error.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 namespace {
@@ -62,7 +62,7 @@ void add_light(const Comments& comments, bool accept_light, Findings& findings) 
 }
 
 Findings sorted(Findings findings) {
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+  std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
     return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
   });
   return findings;
@@ -240,8 +240,7 @@ void check_row_count(const MaterialTable& table, Findings& findings) {
 void check_columns(const MaterialTable& table, Findings& findings) {
   for (std::size_t i = 0; i < table.source_columns.size(); ++i) {
     const double first = table.rows.front().source[i];
-    if (std::all_of(table.rows.begin(), table.rows.end(),
-                    [&](const NamedRow& row) { return row.source[i] == first; }))
+    if (std::ranges::all_of(table.rows, [&](const NamedRow& row) { return row.source[i] == first; }))
       findings.push_back({Severity::kWarning, "gap", 0,
                           table.source_columns[i] + " is " + number_text(first) +
                               " in every row; a fit cannot learn its influence"});
@@ -304,8 +303,7 @@ void require_fittable(const Table& table, bool accept_light) {
   const Finding& first = findings.front();
   const std::string more =
       errors == 1 ? "" : " (" + std::to_string(errors - 1) + " more errors: run remapc check)";
-  throw Error(ErrorKind::kInput,
-              place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
+  throw input_error(place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
 }
 
 }  // namespace remap

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "table/material_table.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 
@@ -23,7 +23,7 @@ struct Finding {
 
 // Returns all findings by severity, then by line. Checks only rows of status ok, except for saturation and
 // range. check.cpp defines the threshold of each check. With `accept_light`, an error of light_remark()
-// (light.hpp) becomes a warning.
+// (table.hpp) becomes a warning.
 std::vector<Finding> check_table(const Table& table, bool accept_light = false);
 
 // Checks a table of named parameters. It finds values that are not finite, too few usable rows for the number

@@ -1,9 +1,11 @@
 // This file reads and writes the CSV tables of this project: comments, a header row and rows of as many
-// cells. A cell that was read knows its line and column.
+// cells. A cell that was read knows its line and column. Commands write plain CSV, which numpy, pandas and
+// spreadsheets read without options. FILE.json beside it records how the table was made (decision 052).
+// Tables with comments can be read, too.
 #pragma once
 
 #include <concepts>
-#include <optional>
+#include <filesystem>
 #include <ranges>
 #include <string>
 #include <string_view>
@@ -65,7 +67,7 @@ class CsvText {
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
   // Adds a row of at least one cell. A cell is a text (quoted if it holds a comma) or a number (the shortest
-  // text that reads back). An optional number may be missing, which gives an empty cell. A range gives one
+  // text that reads back). A range gives one
   // cell for each element.
   template <typename... Cells>
   void add_row(const Cells&... cells) {
@@ -79,7 +81,6 @@ class CsvText {
   void add(std::string_view cell);
   void add(double number);
   void add(std::size_t number) { add(static_cast<double>(number)); }
-  void add(const std::optional<double>& number);
   template <std::ranges::range Numbers>
   requires(!std::convertible_to<Numbers, std::string_view>) void add(const Numbers& numbers) {
     for (const auto& number : numbers) add(number);
@@ -87,5 +88,26 @@ class CsvText {
 
   std::string text_;
 };
+
+// Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+// Returns the SHA-256 of a file, or an empty text if the file is missing.
+std::string file_sha256(const std::filesystem::path& path);
+
+// Parses a JSON object of texts about the table `table`. Throws kInput, beginning with `context`.
+Comments parse_metadata(std::string_view json, const std::string& context);
+
+// Parses the content of the file `path` (parse_csv). A table without comments gets the comments of FILE.json.
+Csv parse_table_file(std::string_view bytes, const std::filesystem::path& path);
+
+// Returns the table as one text, with its comments. Fits record the hash of this text, so both forms of a
+// table have the same hash.
+std::string whole_text(const Csv& csv, std::string_view bytes);
+
+// Throws kOutput if the table or its FILE.json exists already, unless `force`.
+void require_new_table(const std::filesystem::path& path, bool force);
+
+// Writes CSV text as a plain file, and its comments, if it has some, as FILE.json.
+void write_plain_table(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace remap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -10,7 +11,7 @@
 #include "core/input_file.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
+#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -106,8 +107,8 @@ ModelSide side_of(const Csv& csv, const std::string& role, const ModelSide& give
   if (const std::string text = csv.comment(role + "_roughness"); !text.empty()) {
     const auto convention = encoding_from_name(text);
     if (!convention)
-      throw Error(ErrorKind::kInput, csv.name + ": " + role + "_roughness: unknown convention \"" + text +
-                                         "\"" + suggestion(text, convention_names()));
+      throw input_error(csv.name + ": " + role + "_roughness: unknown convention \"" + text + "\"" +
+                        suggestion(text, convention_names()));
     side.roughness = *convention;
   }
   for (const char* suffix : {"_specular", "_specular_column"})
@@ -125,6 +126,58 @@ std::optional<double> limit_in(const Table& table, const std::string& key) {
     return limit;
   }
   return std::nullopt;
+}
+
+std::vector<std::string> split_names(const std::string& text) {
+  std::vector<std::string> names;
+  for (const CsvCell& cell : split_csv_line(text, ',')) names.emplace_back(cell.text);
+  return names;
+}
+
+std::size_t place_of(const Csv& csv, const std::string& column) {
+  for (std::size_t i = 0; i < csv.header.cells.size(); ++i)
+    if (csv.header.cells[i].text == column) return i;
+  csv.fail(csv.header.number, 1, "has no column " + column + ", which the comments name");
+}
+
+std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string>& columns) {
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) places.push_back(place_of(csv, column));
+  return places;
+}
+
+MaterialTable material_table_from_csv(const Csv& csv) {
+  MaterialTable table;
+  table.name = csv.name;
+  table.remarks = csv.remarks;
+  for (const auto& comment : csv.comments)
+    if (comment.first != kSourceColumnsComment && comment.first != kTargetColumnsComment)
+      table.comments.push_back(comment);
+  for (const char* key : {kSourceColumnsComment, kTargetColumnsComment})
+    if (csv.comment(key).empty())
+      csv.fail(csv.header.number, 1,
+               std::string("has no comment ") + key + " (it must list the names of columns)");
+  table.source_columns = split_names(csv.comment(kSourceColumnsComment));
+  table.target_columns = split_names(csv.comment(kTargetColumnsComment));
+  const auto sources = places_of(csv, table.source_columns), targets = places_of(csv, table.target_columns);
+  const std::size_t error = place_of(csv, "error"), status = place_of(csv, "status");
+  for (const CsvLine& line : csv.lines) {
+    NamedRow row;
+    const auto number = [&](std::size_t place) {
+      return csv.number(line, line.cells[place], std::string(csv.header.cells[place].text));
+    };
+    for (const std::size_t place : sources) row.source.push_back(number(place));
+    for (const std::size_t place : targets) row.target.push_back(number(place));
+    row.error = number(error);
+    row.status = read_status(csv, line, line.cells[status]);
+    row.line = line.number;
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string change_text(double scale) {
+  return percent(std::fabs(scale - 1.0)) + (scale > 1.0 ? " larger" : " smaller");
 }
 
 }  // namespace
@@ -147,15 +200,13 @@ ColumnMap column_map(const std::string& text) {
     return map;
   }
   if (text.find('=') == std::string::npos)
-    throw Error(ErrorKind::kUsage,
-                "--columns: unknown preset '" + text + "' (use sztrajman-2019, or OWN=FILE pairs)");
+    throw usage_error("--columns: unknown preset '" + text + "' (use sztrajman-2019, or OWN=FILE pairs)");
   for (const CsvCell& cell : split_csv_line(text, ',')) {
     const std::size_t equals = cell.text.find('=');
     const std::string own(cell.text.substr(0, equals));
-    if (equals == std::string_view::npos ||
-        std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
-      throw Error(ErrorKind::kUsage, "--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
-                                         suggestion(own, kColumns));
+    if (equals == std::string_view::npos || std::ranges::find(kColumns, own) == kColumns.end())
+      throw usage_error("--columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
+                        suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));
   }
   return map;
@@ -249,6 +300,65 @@ TableRecord table_record(const std::filesystem::path& path, std::string_view byt
   TableRecord record{path.filename().string(), sha256(bytes), {}};
   for (const auto& [key, value] : comments) record.comments[key] = value;
   return record;
+}
+
+MaterialTable parse_material_table(std::string_view text, const std::string& name) {
+  return material_table_from_csv(parse_csv(text, name));
+}
+
+std::string material_table_text(const MaterialTable& table) {
+  const std::string sources = joined(table.source_columns, ","), targets = joined(table.target_columns, ",");
+  Comments comments = table.comments;
+  comments.emplace_back(kSourceColumnsComment, sources);
+  comments.emplace_back(kTargetColumnsComment, targets);
+  CsvText csv(sources + "," + targets + ",error,status", comments);
+  for (const NamedRow& row : table.rows)
+    csv.add_row(row.source, row.target, row.error, status_name(row.status));
+  return csv.text();
+}
+
+AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map) {
+  return any_table(parse_csv(text, name), map);
+}
+
+AnyTable any_table(const Csv& csv, const ColumnMap& map) {
+  if (csv.comment(kSourceColumnsComment).empty()) return table_from_csv(csv, map);
+  return material_table_from_csv(csv);
+}
+
+bool is_wrong_light(const LightMatch& match) {
+  return std::fabs(match.scale - 1.0) > kMostLightChange && !match.accepted;
+}
+
+std::string light_remark(const LightMatch& match) {
+  const double change = std::fabs(match.scale - 1.0);
+  if (!(change > kSaidLightChange || match.diffuse_error > kSaidLightChange)) return "";
+  const std::string left = "the diffuse pictures differ by " + percent(match.diffuse_error);
+  if (!(change > kSaidLightChange)) return left + " (this does not change specular)";
+  std::string remark = "diffuse matches only if the light of the source is multiplied by " +
+                       number_text(rounded(match.scale, 4)) + " (" + left +
+                       " after that). Therefore, specular2 is " + change_text(match.scale) +
+                       ", which is right only if the two renderers have different light";
+  if (is_wrong_light(match))
+    remark +=
+        " (check the diffuse of both models; --no-irradiance-matching keeps the light unchanged, "
+        "--accept-light continues anyway)";
+  return remark;
+}
+
+void require_light(const LightMatch& match, const std::string& context) {
+  if (is_wrong_light(match)) throw input_error(context + ": " + light_remark(match));
+}
+
+LightMatch light_match(const Comments& comments) {
+  LightMatch match;
+  for (const auto& [key, value] : comments) {
+    const double number = parse_number(value).value_or(0.0);
+    if (key == kLightScaleComment && number > 0.0) match.scale = number;
+    if (key == kDiffuseErrorComment) match.diffuse_error = number;
+    if (key == kLightAcceptedComment) match.accepted = value == "yes";
+  }
+  return match;
 }
 
 }  // namespace remap

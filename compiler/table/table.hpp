@@ -1,15 +1,18 @@
 // This file holds the table of a sweep, which has the target's parameters for each sample of the source.
-// Sweeps write it and fits read it, as a CSV file with comments that record how it was made.
+// Sweeps write it and fits read it, as a CSV file with comments that record how it was made. A table of more
+// parameters than width and specular has a column for each parameter and channel, named as the models name
+// them (Sztrajman et al. 2019, section 5.2: random samples; section 8).
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "lower/fit.hpp"
-#include "table/table_file.hpp"
+#include "table/csv.hpp"
 
 namespace remap {
 
@@ -66,7 +69,7 @@ RowStatus status_at(const TableRow& row, const Limits& limits);
 // comment that is not a number above 0.
 void find_limits(Table* table);
 
-// These comments identify a table of named parameters (material_table.hpp): the columns of each side,
+// These comments identify a table of named parameters (MaterialTable): the columns of each side,
 // separated by commas.
 inline constexpr const char* kSourceColumnsComment = "source_columns";
 inline constexpr const char* kTargetColumnsComment = "target_columns";
@@ -118,5 +121,69 @@ std::string table_text(const Table& table);
 
 // Returns what a fit records about its table. `bytes` is the content of the table's file.
 TableRecord table_record(const std::filesystem::path& path, std::string_view bytes, const Comments& comments);
+
+struct NamedRow {
+  std::vector<double> source, target;  // one value for each column, in the parameters' own units
+  double error = 0.0;                  // image error of the match over all channels, relative RMS
+  RowStatus status = RowStatus::kOk;
+  std::size_t line = 0;  // in the file it was read from, 1-based; 0 for a new row
+};
+
+struct MaterialTable {
+  std::string name;                                         // file name, for messages
+  Comments comments;                                        // without the two comments that list columns
+  std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
+  std::vector<NamedRow> rows;
+  std::vector<std::string> remarks = {};  // what the parser assumed, for the user
+};
+
+// Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
+MaterialTable parse_material_table(std::string_view text, const std::string& name);
+
+std::string material_table_text(const MaterialTable& table);
+
+// An AnyTable is a table of alpha and specular (remapc sweep), or of named parameters (remapc sample).
+using AnyTable = std::variant<Table, MaterialTable>;
+
+// Makes a table from CSV text in the form that its comments declare. With a comment source_columns, it is a
+// MaterialTable. `map` applies only to a Table. Throws like parse_table() and parse_material_table().
+AnyTable any_table(const Csv& csv, const ColumnMap& map);
+// Parses text and then calls any_table().
+AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
+
+// The light of two renderers may differ. A sweep makes it equal before it compares highlights. For this, it
+// multiplies the source's pictures by the factor that makes white diffuse spheres of both renderers look the
+// same. This is right if only the lights differ. If diffuse lobes differ (Oren-Nayar and Lambert), it wrongly
+// changes the specular of every row.
+//
+// These comments of a table hold the factor, the RMS difference of diffuse pictures that remains, and whether
+// a user has accepted both.
+inline constexpr const char* kLightScaleComment = "irradiance_scale";
+inline constexpr const char* kDiffuseErrorComment = "diffuse_error";
+inline constexpr const char* kLightAcceptedComment = "light_accepted";
+
+struct LightMatch {
+  double scale = 1.0;  // factor for the source's pictures, which also changes the specular of the target
+  double diffuse_error = 0.0;  // relative to the source's picture
+  bool accepted = false;
+};
+
+// A larger scale or difference is reported. Noise and rounding errors of renderers are smaller.
+inline constexpr double kSaidLightChange = 0.01;
+// A larger scale changes specular by more than the error of a fit, and most people see it.
+inline constexpr double kMostLightChange = 0.05;
+
+// Returns true if specular changes by more than kMostLightChange and nobody has accepted it.
+bool is_wrong_light(const LightMatch& match);
+
+// Returns `what is wrong (what to do)`, with the numbers, or an empty text if the light matches. Sweeps,
+// checks, fits and cards all use this rule.
+std::string light_remark(const LightMatch& match);
+
+// Throws kInput with the remark, beginning with `context`, if the light is wrong.
+void require_light(const LightMatch& match, const std::string& context);
+
+// Returns the match that comments record. If they record none, the light is equal.
+LightMatch light_match(const Comments& comments);
 
 }  // namespace remap

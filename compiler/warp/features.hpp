@@ -1,6 +1,7 @@
 // This file computes appearance features. These are vectors, and their Euclidean distance is the appearance
-// distance of two reflectances. They exist for any model or table. features.cpp has closed formulas, and
-// sampled_features.cpp has features from samples.
+// distance of two reflectances. They exist for any model or table. features.cpp tabulates the specular lobe
+// of a model over directions and alpha, and has closed formulas. sampled_features.cpp has features from
+// samples.
 #pragma once
 
 #include <variant>
@@ -9,9 +10,32 @@
 #include <Eigen/Core>
 
 #include "remap/model.hpp"
-#include "warp/lobe_table.hpp"
+#include "warp/material.hpp"
+#include "warp/quadrature.hpp"
 
 namespace remap {
+
+inline constexpr std::size_t kWidthNodes = 64;  // uniform in log(alpha) between kLeastWidth and kLargestWidth
+inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;
+
+// A WidthPosition is the position of an alpha between `node` and the next node. `fraction` is 0 to 1.
+struct WidthPosition {
+  Eigen::Index node = 0;
+  double fraction = 0.0;
+};
+WidthPosition width_position(double alpha) noexcept;
+
+// A LobeTable holds slope and base of a model (Lobe in brdf.hpp) by direction (row) and node of alpha
+// (column).
+struct LobeTable {
+  Eigen::MatrixXd slope, base;
+};
+LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirection>& directions);
+
+inline constexpr std::size_t kReferenceTexels = 400;
+
+// Returns a material's mean reflectance over kReferenceTexels texels and all channels, by direction.
+Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table);
 
 // An AppearanceDistance is the weight of differences between two reflectances over directions (An et al.
 // 2011, equation 1). kRelative divides a difference by the mean reflectance of both materials plus 0.03. Its

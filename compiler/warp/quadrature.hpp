@@ -1,6 +1,7 @@
-// This file gives the directions at which reflectances are compared.
+// This file gives the directions at which reflectances are compared, and reads measured BRDFs at them.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "look/brdf.hpp"
@@ -21,5 +22,9 @@ struct QuadratureDirection {
 // five Gauss nodes of the difference angle and five of its azimuth. Pairs with a cosine below 0.05 are
 // excluded.
 std::vector<QuadratureDirection> half_vector_quadrature();
+
+// Returns the reflectance of a MERL file at these directions, channel by channel. Cells that were not
+// measured are 0. Throws kInput.
+std::vector<float> read_merl(const std::filesystem::path& file);
 
 }  // namespace remap

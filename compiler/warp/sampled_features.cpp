@@ -19,7 +19,7 @@ constexpr double kLargestF0 = 0.999;
 std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMaterial& b) {
   std::vector<double> radii = a.radii;
   radii.insert(radii.end(), b.radii.begin(), b.radii.end());
-  std::sort(radii.begin(), radii.end());
+  std::ranges::sort(radii);
   radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
   return radii;
 }

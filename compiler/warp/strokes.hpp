@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,8 @@
 
 namespace remap {
 
-// Returns the texels of the mask above 0.5 in any color channel. Throws kInput if the mask marks no texel,
-// and the errors of read_stroke_image() and require_background().
+// Returns the texels of the mask above 0.5 in any color channel. Throws kInput if the mask marks no texel or
+// more than three quarters of them, if it cannot be read, and if its size differs from the maps.
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MaterialRef& material);
 
 // Parses `x0,y0,x1,y1`, which means texels from the first corner to the second corner, without the second.
@@ -26,22 +25,10 @@ std::vector<std::uint32_t> box_stroke(const std::string& box, const MaterialRef&
 // one color, because JPEG and soft brushes vary colors. Colors of the two images match within 48. Texels at
 // the edges of strokes, where colors blend, and colors of less than eight texels or 0.002 % are ignored.
 // Throws kInput for an image without strokes or without flat colors and for a color in only one of the
-// images. Also throws the errors of read_stroke_image() and require_background().
+// images. Also throws the errors of read_stroke().
 std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image,
                                            const MaterialRef& source,
                                            const std::filesystem::path& template_image,
                                            const MaterialRef& target);
-
-// A StrokeChannel receives one channel: stored values, row-major from the top, integers as 0 to 1.
-using StrokeChannel = std::function<void(const std::vector<float>& values, bool is_alpha)>;
-
-// Calls `use` for each channel in the order of the file. Throws kInput if the image cannot be read or its
-// size differs from the material's.
-void read_stroke_image(const std::filesystem::path& image, const MaterialRef& material,
-                       const StrokeChannel& use);
-
-// Throws kInput with the name of the image if `marked` is more than three quarters of the texels. Such an
-// image is most likely inverted.
-void require_background(const std::filesystem::path& image, std::size_t marked, const MaterialRef& material);
 
 }  // namespace remap

@@ -1,5 +1,3 @@
-#include "warp/tabulated_set.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +10,8 @@
 #include "core/number_text.hpp"
 #include "table/csv.hpp"
 #include "texture/image_reader.hpp"
-#include "warp/image_texels.hpp"
+#include "warp/quadrature.hpp"
+#include "warp/texture_material.hpp"
 
 namespace remap {
 namespace {
@@ -144,8 +143,8 @@ double largest_of(PixelType type) {
 }
 
 void read_index_map(const fs::path& folder, TabulatedMaterial& material) {
-  const auto name = std::find_if(kIndexMaps.begin(), kIndexMaps.end(),
-                                 [&](const char* file) { return fs::is_regular_file(folder / file); });
+  const auto name =
+      std::ranges::find_if(kIndexMaps, [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
     throw input_error(folder.string() + ": " + material.table.filename().string() +
                       " requires a map of its entries (add index.exr, index.png or index.tif)");

@@ -80,7 +80,7 @@ double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
     const double distance = (images.rowwise() - goal.row(j)).rowwise().squaredNorm().minCoeff();
     used[static_cast<std::size_t>(j)] = distance < sets.target.spacing * sets.target.spacing ? 1 : 0;
   }
-  return static_cast<double>(std::count(used.begin(), used.end(), 1)) / static_cast<double>(used.size());
+  return static_cast<double>(std::ranges::count(used, 1)) / static_cast<double>(used.size());
 }
 
 // Returns the largest overlap in either material.
@@ -162,7 +162,7 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, AppearanceDistance distance, bool exact) {
   WarpFit fit{match_appearances(source, target, strokes, distance), {}};
   fit.compiled.coordinates = std::get<AppearanceCoordinates>(fit.source.coordinates);
-  fit.compiled.table = compile_table(fit.warp, fit.source_positions, nearest_texel(fit.target_positions),
+  fit.compiled.table = compile_table(fit.warp, fit.source_positions, fit.target_positions,
                                      reduced(target, fit.target_texels), exact);
   return fit;
 }
@@ -176,7 +176,7 @@ std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const Mate
   Points images = images_of(match.warp, positions_of(match.source, source));
   for (Eigen::Index i = 0; i < images.rows(); ++i)
     if (!images.row(i).allFinite()) images.row(i).setZero();
-  std::vector<std::uint32_t> texels = nearest_texel(goal)(images);
+  std::vector<std::uint32_t> texels = nearest_texels(goal, images);
   for (std::size_t i = 0; i < texels.size(); ++i)
     if (!source.takes_part(i)) texels[i] = kNoTexel;
   return texels;

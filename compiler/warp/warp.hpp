@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "warp/nearest_texel.hpp"
 #include "warp/registration.hpp"
 
 namespace remap {

@@ -3,13 +3,74 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
+#include <memory>
+#include <nanoflann.hpp>
 
 #include "core/errors.hpp"
-#include "warp/points.hpp"
+#include "warp/registration.hpp"
 
 namespace remap {
 namespace {
+
+constexpr std::size_t kLeafSize = 32;
+
+// A Tree finds the closest of a list of points. The dimension is a template parameter, because that doubles
+// the speed.
+template <std::size_t kDimension>
+class Tree {
+ public:
+  using Distance = nanoflann::L2_Simple_Adaptor<float, Tree>;
+  using Index =
+      nanoflann::KDTreeSingleIndexAdaptor<Distance, Tree, static_cast<int>(kDimension), std::uint32_t>;
+
+  explicit Tree(const Points& positions) {
+    points_.reserve(static_cast<std::size_t>(positions.rows()));
+    rows_.reserve(static_cast<std::size_t>(positions.rows()));
+    for (Eigen::Index row = 0; row < positions.rows(); ++row) {
+      if (!positions.row(row).allFinite()) continue;
+      points_.push_back(point_of(positions, row));
+      rows_.push_back(static_cast<std::uint32_t>(row));
+    }
+    index_ = std::make_unique<Index>(static_cast<int>(kDimension), *this,
+                                     nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+  }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  // nanoflann requires these functions of a list of points.
+  std::size_t kdtree_get_point_count() const { return rows_.size(); }
+  float kdtree_get_pt(std::size_t point, std::size_t axis) const { return points_[point][axis]; }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+
+  std::vector<std::uint32_t> find(const Points& points) const {
+    std::vector<std::uint32_t> nearest(static_cast<std::size_t>(points.rows()));
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const std::array<float, kDimension> query = point_of(points, i);
+      std::uint32_t found = 0;
+      float distance = 0.0f;
+      index_->knnSearch(query.data(), 1, &found, &distance);
+      nearest[static_cast<std::size_t>(i)] = rows_[found];
+    }
+    return nearest;
+  }
+
+ private:
+  static std::array<float, kDimension> point_of(const Points& positions, Eigen::Index row) {
+    std::array<float, kDimension> point{};
+    for (std::size_t k = 0; k < kDimension; ++k)
+      point[k] = static_cast<float>(positions(row, static_cast<Eigen::Index>(k)));
+    return point;
+  }
+
+  std::vector<std::array<float, kDimension>> points_;
+  std::vector<std::uint32_t> rows_;
+  std::unique_ptr<Index> index_;
+};
 
 void set_box(ParameterTable& table, const Points& positions) {
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
@@ -166,9 +227,9 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
 // most of the box, copy the result of the closest of these nodes, because the warp is undefined far from the
 // source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
-                                       const Points& images, const NearestTexel& nearest) {
+                                       const Points& images, const Points& target_positions) {
   const std::vector<std::uint32_t> near = nodes_around(positions, table);
-  const std::vector<std::uint32_t> found = nearest(images(near, Eigen::all));
+  const std::vector<std::uint32_t> found = nearest_texels(target_positions, images(near, Eigen::all));
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(images.rows()), kUnknown);
   for (std::size_t i = 0; i < near.size(); ++i) texels[near[i]] = found[i];
   spread(texels, near, table.nodes);
@@ -183,13 +244,19 @@ std::size_t nodes_of(Eigen::Index dimension, bool exact) noexcept {
 
 }  // namespace
 
-ParameterTable compile_table(const SmoothWarp& warp, const Points& positions, const NearestTexel& nearest,
+std::vector<std::uint32_t> nearest_texels(const Points& positions, const Points& points) {
+  if (positions.cols() == 1) return Tree<1>(positions).find(points);
+  if (positions.cols() == 2) return Tree<2>(positions).find(points);
+  return Tree<3>(positions).find(points);
+}
+
+ParameterTable compile_table(const SmoothWarp& warp, const Points& positions, const Points& target_positions,
                              const WarpMaterial& target, bool exact) {
   ParameterTable table;
   table.nodes = nodes_of(positions.cols(), exact);
   set_box(table, positions);
   const std::vector<std::uint32_t> texels =
-      node_texels(positions, table, images_of_nodes(warp, table), nearest);
+      node_texels(positions, table, images_of_nodes(warp, table), target_positions);
   if (exact)
     table.entries = copied_nodes(texels, target);
   else

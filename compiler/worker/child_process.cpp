@@ -17,6 +17,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "core/owner_tag.hpp"
 #include "core/plain_text.hpp"
@@ -36,7 +37,7 @@ struct Pipe {
   Pipe() {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error(ErrorKind::kInput, std::string("pipe: cannot be created: ") + std::strerror(errno));
+      throw input_error(std::string("pipe: cannot be created: ") + std::strerror(errno));
     read = ends[0], write = ends[1];
   }
 };
@@ -142,7 +143,7 @@ ChildProcess::ChildProcess(std::string script) : mark_(new_mark()) {
   if (start_failure_ == 0) return;
   lock.unlock();
   watcher_.join();
-  throw Error(ErrorKind::kInput, std::string("process: cannot be started: ") + std::strerror(start_failure_));
+  throw input_error(std::string("process: cannot be started: ") + std::strerror(start_failure_));
 }
 
 ChildProcess::~ChildProcess() {

@@ -15,6 +15,21 @@
 namespace remap {
 namespace {
 
+// This is the brightest value of a pixel. The peak of the narrowest highlight is below 1e8. The squares of
+// values beyond this limit do not fit into floats.
+constexpr float kBrightestPixel = 1e18f;
+
+// Filters and differences of sums leave values slightly below 0. They are accepted down to this fraction of
+// the brightest value.
+constexpr float kNegativeShare = 1e-4f;
+
+// Returns the fault of one value, or null.
+const char* rule_against(float value, float least) {
+  if (!std::isfinite(value)) return "values must be finite";
+  if (value > kBrightestPixel) return "values must not be above 1e18";
+  return value < least ? "values must not be negative" : nullptr;
+}
+
 // These limit the answer of one renderer, because `remapc renderers` lists all models, and parameters become
 // options.
 constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
@@ -81,9 +96,8 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
                   const std::string& context) {
   const auto count = std::ranges::count(model.parameters, role, &ParameterDescription::role);
   if (count > 1 || (needed && count == 0))
-    throw Error(ErrorKind::kInput, context + ": " + std::to_string(count) + " parameters have the role " +
-                                       std::string(role_word(role)) + " (declare " +
-                                       (needed ? "one" : "at most one") + ")");
+    throw input_error(context + ": " + std::to_string(count) + " parameters have the role " +
+                      std::string(role_word(role)) + " (declare " + (needed ? "one" : "at most one") + ")");
 }
 
 ModelDescription read_model(const Field& field, const std::string& prefix) {
@@ -103,7 +117,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   require_once(model, ParameterRole::kDiffuse, false, model.name);
   model.alpha = canonical_widths(model.roughness, model.parameter(ParameterRole::kRoughness).range);
   if (!(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0) || !std::isfinite(model.alpha.max))
-    throw Error(ErrorKind::kInput, model.name + ": the range of its roughness does not fit its convention");
+    throw input_error(model.name + ": the range of its roughness does not fit its convention");
   if (field.contains("precision")) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
@@ -138,6 +152,21 @@ std::optional<std::string> complaint_of(const Json& answer, const std::string& c
 }
 
 }  // namespace
+
+std::string picture_fault(const Image& image) {
+  const auto found = std::ranges::max_element(image.values);
+  const float least = found != image.values.end() && *found > 0.0f ? -kNegativeShare * *found : 0.0f;
+  const auto channels = static_cast<std::size_t>(image.channels),
+             width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const char* rule = rule_against(image.values[i], least);
+    if (rule == nullptr) continue;
+    const std::size_t pixel = i / channels;
+    return "the picture is " + number_text(decimal_value(image.values[i])) + " in row " +
+           std::to_string(pixel / width) + ", column " + std::to_string(pixel % width) + " (" + rule + ")";
+  }
+  return "";
+}
 
 PictureRequest picture_request(const Material& material, const Scene& scene) {
   PictureRequest request{"", shown_request(material, scene), scene.resolution, scene.shape, 1};
@@ -192,8 +221,7 @@ std::optional<std::string> read_answer(const std::string& line, std::int64_t id,
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& context) {
   const Json answer = parse_answer(line, id, context);
-  if (const auto complaint = complaint_of(answer, context))
-    throw Error(ErrorKind::kInput, context + ": " + *complaint);
+  if (const auto complaint = complaint_of(answer, context)) throw input_error(context + ": " + *complaint);
   const Field field(answer, context);
   if (field["protocol"].count() != kWorkerProtocol)
     field["protocol"].fail("is version " + field["protocol"].json().dump() + " (must be " +

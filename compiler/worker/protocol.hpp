@@ -1,5 +1,6 @@
 // This file formats the requests to a worker and parses its answers (compiler/adapters/PROTOCOL.md). Only
-// this file knows their JSON.
+// this file knows their JSON. It also finds values that no picture of a renderer may hold, whether it comes
+// from a worker or from a file.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "look/image.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remap {
+
+// Returns `the picture is nan in row 3, column 5 (values must be finite)` for the first value that is not
+// finite, too bright, or negative beyond rounding. Returns an empty text for a picture that can be used.
+std::string picture_fault(const Image& image);
 
 inline constexpr int kWorkerProtocol = 1;
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "command_line/command.hpp"
+#include "command_line/interruption.hpp"
+#include "command_line/run_app.hpp"
+#include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/nearest_name.hpp"
-#include "remap/error.hpp"
 #include "worker/folders.hpp"
 
 namespace remap {
@@ -82,16 +85,15 @@ ModelDescription RendererSet::model(const std::string& name) const {
                                    "connected renderers; --worker \"" +
                                        name.substr(0, name.find('/')) + "=COMMAND\" connects another renderer"
                                  : "did you mean " + nearest + "?";
-  throw Error(ErrorKind::kUsage, name + ": is not a model of " + builtin_->version() +
-                                     " or of a connected renderer (" + advice + ")");
+  throw usage_error(name + ": is not a model of " + builtin_->version() + " or of a connected renderer (" +
+                    advice + ")");
 }
 
 std::vector<ModelDescription> RendererSet::models_of(const std::string& worker) const {
   std::vector<std::string> names;
   for (const WorkerEntry& entry : workers_) names.push_back(entry.name);
   if (std::ranges::find(names, worker) == names.end())
-    throw Error(ErrorKind::kUsage,
-                worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
+    throw usage_error(worker + ": is not a connected renderer (choose " + joined(names, ", ") + ")");
   return renderer_of(worker).models();
 }
 
@@ -137,7 +139,7 @@ std::vector<WorkerEntry> read_worker_list(const fs::path& path) {
 WorkerEntry parse_worker(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !is_name(text.substr(0, equals)) || equals + 1 == text.size())
-    throw Error(ErrorKind::kUsage, "--worker " + text + ": is not of the form NAME=COMMAND");
+    throw usage_error("--worker " + text + ": is not of the form NAME=COMMAND");
   return {text.substr(0, equals), text.substr(equals + 1), fs::current_path().string(), ""};
 }
 
@@ -146,7 +148,7 @@ std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given) {
   for (const std::string& text : given) {
     WorkerEntry entry = parse_worker(text);
     if (!entries.emplace(entry.name, entry).second)
-      throw Error(ErrorKind::kUsage, "--worker " + text + ": " + entry.name + " was given twice");
+      throw usage_error("--worker " + text + ": " + entry.name + " was given twice");
   }
   for (const fs::path& list : {own_worker_list(), shipped_worker_list()}) {
     if (!fs::exists(list)) continue;
@@ -155,6 +157,37 @@ std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given) {
   std::vector<WorkerEntry> workers;
   for (auto& [name, entry] : entries) workers.push_back(std::move(entry));
   return workers;
+}
+
+void add_renderer_options(Command& app, RendererOptions& options) {
+  app.option_group("Rare: external renderers (remapc renderers lists them)");
+  app.add_option("--worker NAME=COMMAND", options.workers,
+                 "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
+                 "may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--worker-folder FOLDER", options.settings.folder,
+                 "Existing folder in which workers write their pictures; if workers run on other machines, a "
+                 "folder that all machines share (default: in memory)");
+  app.add_option("--worker-processes", options.settings.processes,
+                 "Processes of one worker at once, at most; 0: one per core");
+  app.add_option("--worker-timeout", options.settings.seconds, "Seconds to wait for an answer of a worker")
+      ->positive();
+  app.add_option("--cache FOLDER", options.cache,
+                 "Folder for pictures of workers (default: remap/pictures in the user's cache)");
+  app.add_flag("--no-cache", options.no_cache, "Render every picture again, and keep none in the cache");
+}
+
+WorkerSettings worker_settings(const RendererOptions& options) {
+  WorkerSettings settings = options.settings;
+  if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
+  settings.cancelled = &interruption();
+  settings.on_start = watch_interruptions;
+  settings.on_warning = [](const std::string& message) { print_message("remapc", "warning: " + message); };
+  return settings;
+}
+
+std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
+  return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));
 }
 
 }  // namespace remap

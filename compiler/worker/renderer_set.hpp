@@ -1,6 +1,6 @@
 // This file combines all renderers: the built-in one and workers. It starts a worker when a model with the
 // worker's prefix is first requested. Workers come from the command line, the user's list, and the shipped
-// list.
+// list. It also has the options of commands that use models of external renderers.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line/command.hpp"
 #include "renderer/renderer.hpp"
 #include "worker/worker_renderer.hpp"
 
@@ -62,5 +63,20 @@ WorkerEntry parse_worker(const std::string& text);
 // user's list, then from the shipped list. Throws kInput for a list that cannot be read, and kUsage for
 // errors in `given`.
 std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
+
+struct RendererOptions {
+  std::vector<std::string> workers;  // NAME=COMMAND
+  std::filesystem::path cache;       // if empty, the default folder
+  bool no_cache = false;
+  WorkerSettings settings;  // make_renderers() sets its cache
+};
+
+// Adds the options as a rare group. `options` must outlive the callback of `app`.
+void add_renderer_options(Command& app, RendererOptions& options);
+
+WorkerSettings worker_settings(const RendererOptions& options);
+
+// Returns the built-in renderer and all known workers. Throws like known_workers().
+std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options);
 
 }  // namespace remap

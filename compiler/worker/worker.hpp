@@ -63,7 +63,7 @@ class Worker {
   const WorkerDescription& description() const { return description_; }
 
   // Renders a picture. Throws LostWorker if no answer comes, and kInput if rendering fails, or if the picture
-  // has forbidden values (picture_fault.hpp). If the worker answered with an error, is_usable() stays true
+  // has forbidden values (picture_fault()). If the worker answered with an error, is_usable() stays true
   // and the worker accepts further requests.
   //
   // Every message about a worker names the worker and the request. If the worker was ended, the message has

@@ -1,5 +1,5 @@
-// This file lets sweeps use a real renderer. It runs several processes of one worker, and caches their
-// pictures.
+// This file lets sweeps use a real renderer. It runs several processes of one worker, and keeps their
+// pictures on disk, so that no picture is rendered twice.
 #pragma once
 
 #include <atomic>
@@ -14,12 +14,37 @@
 #include <string>
 #include <vector>
 
+#include "look/image.hpp"
 #include "renderer/renderer.hpp"
 #include "worker/folders.hpp"
-#include "worker/picture_cache.hpp"
+#include "worker/protocol.hpp"
 #include "worker/worker.hpp"
 
 namespace remap {
+
+// A PictureCache stores the pictures of one version of one renderer. Its folder is named after both. It is
+// safe for many threads and processes. A picture appears complete or not at all.
+class PictureCache {
+ public:
+  // `renderer` is WorkerDescription::renderer.
+  PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
+
+  // Returns the picture of a request, if the cache has it. If its file cannot be used, `damage` receives the
+  // reason (`FILE: its checksum does not match its content`).
+  std::optional<Image> find(const PictureRequest& request, std::string& damage) const;
+
+  // Throws kOutput if the picture cannot be written.
+  void keep(const PictureRequest& request, const Image& image) const;
+
+  // Returns the names of the folders that hold pictures of other versions of this worker.
+  std::vector<std::string> other_versions() const;
+
+ private:
+  std::filesystem::path file_of(const PictureRequest& request) const;
+
+  std::string key_opening_;
+  std::filesystem::path worker_folder_, folder_;
+};
 
 // A PictureCount holds counts and costs of the pictures that a renderer has returned so far.
 struct PictureCount {

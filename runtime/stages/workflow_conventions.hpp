@@ -1,5 +1,5 @@
 // This file holds the formulas of workflow conversions, and prepares the conventions of both workflows for
-// them. Generated headers have the same text (compiler/emit/workflow_code.cpp), so that both give the same
+// them. Generated headers have the same text (compiler/emit/header_code.cpp), so that both give the same
 // bits. Only the formulas of the diagnosis are not in headers.
 #pragma once
 

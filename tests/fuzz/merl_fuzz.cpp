@@ -6,7 +6,7 @@
 
 #include "fuzz/fuzz.hpp"
 #include "fuzz/fuzz_file.hpp"
-#include "warp/tabulated_set.hpp"
+#include "warp/quadrature.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "core/files.hpp"
 #include "emit/emit.hpp"
-#include "fit/network/mlp.hpp"
+#include "fit/network/fit_network.hpp"
 #include "fit/svr/svr.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
@@ -123,7 +123,7 @@ std::vector<MadeModel> subjects() {
   const SvrHyperParameters smooth{100.0, 0.5, 1e-4, 1.0, 0.0};
   add("vectors", kAlpha, kAlpha, fit_svr(rows, {1, 1, smooth, smooth}).mapping);
   for (const Activation activation : {Activation::kTanh, Activation::kSilu}) {
-    MlpOptions options;
+    TrainingOptions options;
     options.activation = activation;
     options.hidden = {6};
     options.starts = 1;

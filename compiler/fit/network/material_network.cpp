@@ -1,5 +1,3 @@
-#include "fit/network/material_network.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +5,9 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "fit/network/fit_network.hpp"
 #include "remap/version.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
 namespace remap {
@@ -24,7 +23,7 @@ struct MaterialRow {
 
 std::size_t place_of(const MaterialTable& table, const std::vector<std::string>& columns,
                      const std::string& name) {
-  const auto found = std::find(columns.begin(), columns.end(), name);
+  const auto found = std::ranges::find(columns, name);
   if (found == columns.end())
     throw input_error(table.name + ": missing column " + name +
                       " (use a table of remapc sample from a metallic to a specular model)");

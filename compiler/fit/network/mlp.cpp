@@ -1,9 +1,8 @@
-#include "fit/network/mlp.hpp"
-
 #include <map>
 #include <string>
 
 #include "core/number_text.hpp"
+#include "fit/network/fit_network.hpp"
 
 namespace remap {
 namespace {
@@ -37,7 +36,7 @@ std::string hidden_text(const std::vector<std::size_t>& hidden) {
 
 }  // namespace
 
-Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
+Regression fit_mlp(const std::vector<TableRow>& rows, const TrainingOptions& options,
                    const FitProgress& progress) {
   require_variety(rows, "mlp");
   const Samples alpha_samples = samples_of(rows, alpha_needs_specular(rows), &TableRow::alpha2);

@@ -1,13 +1,69 @@
-// This file declares the optimisers of network_training.hpp. Each function runs one training from one set of
-// initial parameters. Among the files about networks, only network_optimisers.cpp uses Ceres.
+// This file evaluates a fully connected network on many samples, with gradient and Jacobian by
+// backpropagation, and has the optimisers of network_training.cpp. Each of them runs one training from one
+// set of initial parameters. Among the files about networks, only network_optimisers.cpp uses Ceres.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
-#include "fit/network/network_batch.hpp"
+#include <Eigen/Core>
+
+#include "lower/mapping.hpp"
 
 namespace remap {
+
+struct NetworkShape {
+  Activation activation = Activation::kTanh;
+  std::vector<std::size_t> sizes;  // inputs, units of each hidden layer, outputs; at least two
+
+  // Returns the number of weights and biases, which is the length of a parameter vector.
+  std::size_t parameter_count() const;
+};
+
+// Splits a parameter vector into layers. Each layer has weights, in remap::Layer's order, then biases.
+std::vector<Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters);
+
+// Returns 1 for each weight and 0 for each bias of a parameter vector.
+Eigen::VectorXd weight_mask(const NetworkShape& shape);
+
+// A NetworkBatch is a network of `shape` with normalised inputs. It is not thread-safe, because it keeps the
+// activations of the last forward pass for the backward passes.
+class NetworkBatch {
+ public:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  // `inputs` has one column per sample and shape.sizes.front() rows.
+  NetworkBatch(NetworkShape shape, Eigen::MatrixXd inputs);
+
+  Eigen::Index sample_count() const noexcept { return values_.front().cols(); }
+
+  // Replaces the samples. Their number may differ.
+  void set_inputs(Eigen::MatrixXd inputs);
+
+  // Returns the normalised outputs at `parameters`, one column per sample; valid until the next call.
+  const Eigen::MatrixXd& forward(const double* parameters);
+
+  // Computes the derivatives of output k of sample n by all parameters, in row n * outputs + k. `parameters`
+  // must be those of the last forward pass.
+  void jacobian(const double* parameters, Eigen::Ref<RowMajor> jacobian) const;
+
+  // Computes the derivative by all parameters of a function whose derivatives by the outputs of the last
+  // forward pass are `by_outputs` (one column per sample). `gradient` has parameter_count() numbers.
+  void gradient(const double* parameters, const Eigen::MatrixXd& by_outputs, double* gradient) const;
+
+ private:
+  NetworkShape shape_;
+  std::vector<std::size_t> offsets_;     // offset of each layer in a parameter vector
+  std::vector<Eigen::MatrixXd> values_;  // inputs, activations of each hidden layer, outputs
+  std::vector<Eigen::MatrixXd> slopes_;  // derivatives of the activation function of each hidden layer
+
+  Eigen::Index size(std::size_t layer) const { return static_cast<Eigen::Index>(shape_.sizes[layer]); }
+  Eigen::Map<const RowMajor> weights(const double* parameters, std::size_t layer) const;
+  // Returns derivatives by the sums of `layer`, from the derivatives by the sums of the following layer.
+  Eigen::MatrixXd before(const double* parameters, std::size_t layer, const Eigen::MatrixXd& behind) const;
+};
 
 // A NetworkSamples holds normalised samples, one column each. Validation samples stop the training.
 struct NetworkSamples {
@@ -21,8 +77,6 @@ struct OptimiserSettings {
   double weight_decay = 0.0;
   int iterations = 300;    // maximum
   int patience = 100;      // stops after so many iterations without a better validation error
-  int batch = 128;         // samples per step of run_adam
-  double step = 3e-3;      // largest step of run_adam
   std::uint64_t seed = 1;  // seed of the sample order of run_adam
 };
 

@@ -1,5 +1,3 @@
-#include "fit/network/network_training.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -13,8 +11,9 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "fit/network/fit_network.hpp"
 #include "fit/network/network_optimisers.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 namespace remap {
 namespace {
@@ -54,10 +53,9 @@ void require_sound(const Samples& samples, const TrainingOptions& options) {
     throw input_error("network: too few rows (" + std::to_string(count) + ", at least " +
                       std::to_string(kFewestRows) + " are required)");
   const auto finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(samples.inputs.begin(), samples.inputs.end(), finite) ||
-      !std::all_of(samples.outputs.begin(), samples.outputs.end(), finite))
+  if (!std::ranges::all_of(samples.inputs, finite) || !std::ranges::all_of(samples.outputs, finite))
     throw input_error("network: a row contains a number that is not finite");
-  if (std::find(options.hidden.begin(), options.hidden.end(), std::size_t{0}) != options.hidden.end())
+  if (std::ranges::find(options.hidden, std::size_t{0}) != options.hidden.end())
     throw usage_error("network: every hidden layer must have at least 1 unit");
   if (options.starts == 0) throw usage_error("network: at least 1 start is required");
   if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))

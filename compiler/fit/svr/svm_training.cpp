@@ -1,6 +1,4 @@
 // This file converts samples to libsvm's data structures, trains, and converts the model to Gaussians.
-#include "fit/svr/svm_training.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <libsvm/svm.h>
 
 #include "core/errors.hpp"
+#include "fit/svr/svr.hpp"
 
 namespace remap {
 namespace {
@@ -111,8 +110,7 @@ std::optional<KernelExpansion> train_expansion(const Samples& samples, const Svr
   if (iteration_count >= kIterationBound) return std::nullopt;
   KernelExpansion expansion = expansion_of(*model, scalings);
   const auto finite = [](double number) { return std::isfinite(number); };
-  if (!finite(expansion.bias) || !std::all_of(expansion.weights.begin(), expansion.weights.end(), finite))
-    return std::nullopt;
+  if (!finite(expansion.bias) || !std::ranges::all_of(expansion.weights, finite)) return std::nullopt;
   return expansion;
 }
 

@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "fit/svr/svr_search.hpp"
 
 namespace remap {
 namespace {
@@ -29,7 +28,7 @@ struct Problem {
 
 // Scales `values` to [0, 1]; constant values become 0.
 Scaling scaling_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   const double range = *high - *low;
   return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
 }

@@ -1,6 +1,4 @@
 // This file holds the stages of the search. A task of a thread is one candidate with one fold.
-#include "fit/svr/svr_search.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
+#include "fit/svr/svr.hpp"
 #include "lower/evaluate.hpp"
 
 namespace remap {

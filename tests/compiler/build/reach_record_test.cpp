@@ -1,8 +1,7 @@
 // This file tests the recorded excess of fits. A record is used as long as its fit has not changed.
-#include "build/reach_record.hpp"
-
 #include <catch2/catch.hpp>
 
+#include "build/fit_folder.hpp"
 #include "core/files.hpp"
 #include "core/input_file.hpp"
 #include "remap/error.hpp"

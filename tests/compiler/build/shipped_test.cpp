@@ -10,16 +10,14 @@
 #include "build/build.hpp"
 #include "build/fit_folder.hpp"
 #include "build/report.hpp"
-#include "build/trust.hpp"
 #include "core/files.hpp"
 #include "fit/fit_table.hpp"
 #include "lower/chain.hpp"
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
 #include "support/campaign.hpp"
-#include "table/domain.hpp"
-#include "table/light.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
+#include "table/table.hpp"
 
 using namespace remap;
 

@@ -6,8 +6,7 @@
 #include "compiler/fit/made_table.hpp"
 #include "fit/fit_table.hpp"
 #include "lower/fit_file.hpp"
-#include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 using namespace made_table;

@@ -7,7 +7,6 @@
 
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"
-#include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
 

@@ -1,6 +1,4 @@
 // This file tests the size limits of fits that are read and written.
-#include "lower/limits.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "lower/fit_file.hpp"

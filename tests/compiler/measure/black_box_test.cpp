@@ -9,7 +9,7 @@
 #include "measure/picture_taker.hpp"
 #include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
-#include "table/light.hpp"
+#include "table/table.hpp"
 
 using namespace remap;
 

@@ -1,11 +1,10 @@
 // This file tests random materials of many parameters against equations (2) and (3) of Sztrajman et al. 2019.
-#include "measure/material_sample.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

@@ -1,10 +1,9 @@
 // This file tests models with more parameters than a sweep has roles, against equation (2) of Sztrajman et
 // al. 2019.
-#include "measure/parameter_roles.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "compiler/measure/sweep_session.hpp"
+#include "measure/sweep_options.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

@@ -9,11 +9,11 @@
 
 #include "compiler/measure/sweep_session.hpp"
 #include "compiler/renderer/disguised_renderer.hpp"
-#include "measure/family_probe.hpp"
-#include "measure/joint_match.hpp"
-#include "measure/material_sample.hpp"
+#include "measure/match.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/polynomial.hpp"
+#include "measure/probe.hpp"
+#include "measure/specular_response.hpp"
+#include "measure/sweep.hpp"
 #include "measure/target_pictures.hpp"
 
 using namespace remap;

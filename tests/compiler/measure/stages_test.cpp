@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/measure/sweep_session.hpp"
-#include "measure/joint_match.hpp"
+#include "measure/match.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

@@ -13,7 +13,7 @@
 #include "compiler/measure/sweep_session.hpp"
 #include "core/files.hpp"
 #include "measure/picture_taker.hpp"
-#include "measure/target_bank.hpp"
+#include "measure/target_pictures.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"

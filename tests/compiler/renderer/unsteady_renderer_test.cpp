@@ -8,7 +8,7 @@
 #include "compiler/renderer/disguised_renderer.hpp"
 #include "measure/picture_taker.hpp"
 #include "remap/error.hpp"
-#include "renderer/steady_renderer.hpp"
+#include "renderer/renderer.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

@@ -1,7 +1,5 @@
 // This file tests previews of texture sets. A ball with uniform maps must equal a sphere with the same
 // numbers, each texel must appear at its place on the ball, and the errors must follow from the conversion.
-#include "report/set_preview.hpp"
-
 #include <cmath>
 #include <numbers>
 

@@ -1,9 +1,9 @@
 // This file tests pictures of maps: their grid, and what a pixel shows.
-#include "report/shaded_map.hpp"
-
 #include <algorithm>
 
 #include <catch2/catch.hpp>
+
+#include "report/warp_report.hpp"
 
 using namespace remap;
 

@@ -1,7 +1,5 @@
 // This file tests labels of sheets: they are next to the pictures, do not change them, and are cut if they
 // are too long.
-#include "report/sheet_labels.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "report/contact_sheet.hpp"

@@ -1,10 +1,10 @@
 // This file tests the box of source parameters that a table covers, and tables with reversed roles.
-#include "table/domain.hpp"
-
 #include <random>
 #include <set>
 
 #include <catch2/catch.hpp>
+
+#include "table/regression.hpp"
 
 using namespace remap;
 

@@ -1,10 +1,9 @@
 // This file tests the rule about the light of two renderers.
-#include "table/light.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
 #include "table/check.hpp"
+#include "table/table.hpp"
 
 using namespace remap;
 

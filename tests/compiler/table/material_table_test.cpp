@@ -1,11 +1,10 @@
 // This file tests tables of named parameters: reading and writing, their checks, and commands that refuse
 // them.
-#include "table/material_table.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
 #include "table/check.hpp"
+#include "table/table.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

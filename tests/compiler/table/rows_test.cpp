@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 

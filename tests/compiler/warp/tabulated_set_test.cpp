@@ -1,7 +1,5 @@
 // This file tests measured BRDFs: a model that is written in the format of the MERL database is read back as
 // the same model.
-#include "warp/tabulated_set.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
 #include "warp/quadrature.hpp"
+#include "warp/texture_material.hpp"
 
 using namespace remap;
 

@@ -13,6 +13,7 @@
 #include "support/random_warp.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/quadrature.hpp"
+#include "warp/warp_table.hpp"
 
 namespace {
 
@@ -86,7 +87,7 @@ double tears(const WarpSet& set, const WarpFit& fit) {
   const Points positions = positions_of(fit.compiled.coordinates, set.source.texels);
   Points beside = positions;
   beside.col(0).array() += 0.02;
-  const auto neighbours = nearest_texel(positions)(beside);
+  const auto neighbours = nearest_texels(positions, beside);
   double torn = 0.0, count = 0.0;
   for (std::size_t i = 0; i < copy.size(); i += 13, count += 1.0) {
     const auto own = features_of(features.target, set.target.texels[copy[i]]);

@@ -1,11 +1,10 @@
 // This file tests networks from the specular to the metallic workflow: the check of the rows, the fit, and
 // invalid tables.
-#include "fit/network/material_network.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
+#include "fit/network/fit_network.hpp"
 #include "lower/fit_file.hpp"
 #include "remap/error.hpp"
 #include "runtime/stages/materials.hpp"

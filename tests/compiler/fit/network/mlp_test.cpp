@@ -1,7 +1,5 @@
 // This file tests the kind `mlp`: errors on unseen rows of the published table, what its method records,
 // determinism.
-#include "fit/network/mlp.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -9,12 +7,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "fit/network/fit_network.hpp"
 #include "lower/evaluate.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
-#include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 #include "table/table.hpp"
 
 using namespace remap;
@@ -34,8 +32,8 @@ std::vector<TableRow> smooth_rows() {
   return rows;
 }
 
-MlpOptions quick_mlp_options() {
-  MlpOptions options;
+TrainingOptions quick_mlp_options() {
+  TrainingOptions options;
   options.hidden = {5};
   options.starts = 3;
   return options;
@@ -51,7 +49,7 @@ TEST_CASE("mlp: errors on unseen rows of the published table", "[slow][campaign]
   double alpha_mean = 0.0, specular_mean = 0.0, seconds = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
-    MlpOptions options;
+    TrainingOptions options;
     options.seed = static_cast<std::uint64_t>(seed);
     Regression regression;
     seconds += seconds_of([&] { regression = fit_mlp(split.training, options); }) / seeds;
@@ -104,14 +102,14 @@ TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
 }
 
 TEST_CASE("mlp: numbers depend on the seed") {
-  MlpOptions options = quick_mlp_options();
+  TrainingOptions options = quick_mlp_options();
   const Regression one = fit_mlp(smooth_rows(), options);
   options.seed = 2;
   CHECK_FALSE(fit_mlp(smooth_rows(), options).mapping == one.mapping);
 }
 
 TEST_CASE("mlp: options without units or starts are wrong usage") {
-  const auto kind_of = [](const MlpOptions& options) {
+  const auto kind_of = [](const TrainingOptions& options) {
     try {
       fit_mlp(smooth_rows(), options);
     } catch (const Error& error) {
@@ -119,7 +117,7 @@ TEST_CASE("mlp: options without units or starts are wrong usage") {
     }
     return ErrorKind::kOutput;
   };
-  MlpOptions options;
+  TrainingOptions options;
   options.hidden = {8, 0};
   CHECK(kind_of(options) == ErrorKind::kUsage);
   options = {};
@@ -136,7 +134,7 @@ TEST_CASE("mlp: 100000 rows are fitted on a subset, and method says so", "[slow]
     row.alpha2 = row.alpha1 * (1.0 - 0.3 * row.alpha1);
     row.specular2 = row.specular1 * (0.6 + 0.4 * std::exp(-3.0 * row.alpha1));
   }
-  MlpOptions options = quick_mlp_options();
+  TrainingOptions options = quick_mlp_options();
   options.starts = 2;
   Regression regression;
   const double seconds = seconds_of([&] { regression = fit_mlp(rows, options); });

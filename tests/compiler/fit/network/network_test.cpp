@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fit/network/network_batch.hpp"
-#include "fit/network/network_training.hpp"
+#include "fit/network/fit_network.hpp"
+#include "fit/network/network_optimisers.hpp"
 #include "lower/evaluate.hpp"
 #include "support/build_speed.hpp"
 #include "support/skip.hpp"

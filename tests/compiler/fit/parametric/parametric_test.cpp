@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
-#include "table/domain.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 using namespace made_table;
@@ -102,11 +102,10 @@ TEST_CASE("parametric: a curve that bends inside the domain is refused with the 
   // The curve rises to alpha 0.5 and falls beyond. The table has no rows near the bend.
   const Parametric bent = paper_form({1.0, -1.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Table table = table_of(bent, 0.02, 0.45, 20);
-  const ParametricForm paper = find_form("paper");
   const Range specular{0.0, 0.9};
-  CHECK_THROWS_WITH(fit_parametric(table.rows, {{0.02, 0.9}, specular}, paper),
+  CHECK_THROWS_WITH(fit_parametric(table.rows, {{0.02, 0.9}, specular}),
                     Catch::Contains("does not increase from") && Catch::Contains("alpha1 0.9"));
-  CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}, paper));
+  CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}));
 }
 
 // fit/kinds_test has the tables that test every kind.

@@ -13,15 +13,13 @@
 
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "fit/svr/svr_search.hpp"
 #include "lower/evaluate.hpp"
 #include "lower/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
-#include "table/domain.hpp"
-#include "table/split.hpp"
+#include "table/regression.hpp"
 
 using namespace remap;
 

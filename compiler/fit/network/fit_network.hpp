@@ -1,11 +1,17 @@
-// This file trains fully connected networks with any number of inputs and outputs.
+// This file trains fully connected networks with any number of inputs and outputs. mlp.cpp fits the small
+// networks of sections 5.1 and 8 (Sztrajman et al. 2019), one for each output. material_network.cpp trains a
+// network that converts specular to metallic materials. Its table has pairs of a metallic and a specular
+// material with the same pictures (section 8).
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "lower/fit_file.hpp"
 #include "table/regression.hpp"
+#include "table/table.hpp"
 
 namespace remap {
 
@@ -51,5 +57,34 @@ struct TrainedNetwork {
 // errors.
 TrainedNetwork train_network(const Samples& samples, const TrainingOptions& options,
                              const FitProgress& progress = {});
+
+// Fits `rows` (all of status ok, finite) with alpha and specular as inputs. If alpha_needs_specular() returns
+// false, target alpha is fitted from source alpha only. Some of `rows`, drawn at random, are validation rows,
+// which determine when the training ends. `method` has RMS errors in units of alpha and specular: over
+// the training rows, and over the validation rows before the last iterations, which train on them, too.
+// Throws kInput for fewer than 10 rows or a constant input, kUsage for a layer without units, kNumeric if no
+// start converges, and the exceptions of `progress`.
+Regression fit_mlp(const std::vector<TableRow>& rows, const TrainingOptions& options,
+                   const FitProgress& progress = {});
+
+// The defaults of MaterialNetworkOptions describe the network of the paper.
+struct MaterialNetworkOptions : TrainingOptions {
+  MaterialNetworkOptions() {
+    hidden = {300};
+    activation = Activation::kRelu;
+    starts = 1;
+  }
+  std::string id;                  // if empty, `<specular model>_to_<metallic model>`
+  double held_out_fraction = 0.1;  // fraction of the rows that only measure the errors of the fit
+};
+
+// Trains the inverse of a table of `remapc sample`. The table goes from a metallic model (columns
+// base_color_r1, ..., metallic1) to a specular model (f0_r2, ..., diffuse_r2, ...). `bytes` is the file of
+// the table. Only rows of status ok are used. Diffuse is plain. The roughness conventions come from the
+// table's models. Throws kInput for missing columns, for a table without rows, and if rows deviate from
+// equation (2) by more than 1e-3 (RMS). Throws kUsage for an invalid id or fraction, and the errors of
+// train_network().
+WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
+                                 const MaterialNetworkOptions& options, const FitProgress& progress = {});
 
 }  // namespace remap
