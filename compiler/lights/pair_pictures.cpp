@@ -61,6 +61,8 @@ std::vector<double> widths_of(const std::string& model) {
   return values;
 }
 
+}  // namespace
+
 // A LobePictures holds pictures of the lobe of one model. A picture is linear in specular, and smooth in
 // alpha. So these pictures give the picture of every material with this lobe.
 struct LobePictures {
@@ -87,6 +89,8 @@ struct LobePictures {
     return picture;
   }
 };
+
+namespace {
 
 // A Half is half of the lights: environments, and after these point lights. It keeps the pictures of all
 // models that were requested. Under a point light, a white diffuse sphere has radiance 1 at its closest
