@@ -237,8 +237,8 @@ TEST_CASE("texremap attributes: the comparison detects lost, added and changed a
   after.alpha_channel = 1;
   std::vector<std::string> names;
   for (const SpecDifference& difference : differences(before, after)) names.push_back(difference.name);
-  CHECK(names == std::vector<std::string>{"lost", "retyped", "changed", "added", "data window", "tiles",
-                                          "channels", "roles of channels"});
+  CHECK(names == Names{"lost", "retyped", "changed", "added", "data window", "tiles", "channels",
+                       "roles of channels"});
 }
 
 TEST_CASE("texremap attributes: a PNG of data gets no color space, and a PNG of color keeps its own") {
@@ -252,7 +252,7 @@ TEST_CASE("texremap attributes: a PNG of data gets no color space, and a PNG of 
   };
   const auto [name, tag] = GENERATE(table<const char*, const char*>(
       {{"sRGB", "sRGB"}, {"Linear", "gamma"}, {"Gamma2.2", "gamma"}, {"", "none"}}));
-  OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);
+  OIIO::ImageSpec spec = test_spec(16, 16, kColor, OIIO::TypeUInt8);
   if (*name != '\0') spec.attribute("oiio:ColorSpace", name);
   if (std::string(name) == "Gamma2.2") spec.attribute("oiio:Gamma", 2.2f);
   session.make("orm.png", spec, noise);
