@@ -8,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "table/check.hpp"
@@ -188,12 +189,8 @@ TEST_CASE("csv: what is too large is refused with the limit, and no message repe
   for (std::size_t i = 0; i <= kMostCsvRows; ++i) many += "1,1,1,1\n";
   CHECK_THROWS_WITH(parse_table(many, "t.csv"),
                     Catch::Contains("t.csv:2000002:1: the table has more than 2000000 rows"));
-  try {
-    parse_table(header + "\n" + long_cell + ",1,1,1\n", "t.csv");
-    FAIL("accepted");
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).size() < 200);
-  }
+  const std::string message = error_of([&] { parse_table(header + "\n" + long_cell + ",1,1,1\n", "t.csv"); });
+  CHECK((message.size() > 0 && message.size() < 200));
 }
 
 TEST_CASE("csv: control characters of comments and cells are shown as escapes") {

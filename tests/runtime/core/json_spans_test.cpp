@@ -10,6 +10,7 @@
 #include "assets/document/text_edits.hpp"
 #include "core/json_field.hpp"
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 
 using namespace remap;
 
@@ -36,12 +37,7 @@ std::optional<bool> is_parsed(const std::string& text) {
 }
 
 std::string failure_of(const std::string& text) {
-  try {
-    (void)SpannedJson(text, "a.gltf");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { (void)SpannedJson(text, "a.gltf"); });
 }
 
 }  // namespace

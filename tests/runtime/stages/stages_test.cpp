@@ -17,6 +17,7 @@
 #include "remap/warp.hpp"
 #include "stages/kernels.hpp"
 #include "stages/workflow_stages.hpp"
+#include "support/error_of.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_rows.hpp"
 
@@ -34,14 +35,9 @@ TEST_CASE("instruction set: names lead back to their sets, up to the best") {
 }
 
 TEST_CASE("instruction set: one that the processor lacks, or that there is not, is wrong usage") {
-  const auto message = [](const std::string& name) -> std::string {
-    try {
-      instruction_set_from_name("--instructions", name, InstructionSet::kAvx2);
-    } catch (const Error& error) {
-      CHECK(error.kind() == ErrorKind::kUsage);
-      return error.what();
-    }
-    return "";
+  const auto message = [](const std::string& name) {
+    return error_of([&] { instruction_set_from_name("--instructions", name, InstructionSet::kAvx2); },
+                    ErrorKind::kUsage);
   };
   CHECK(message("avx512") == "--instructions: this processor does not support avx512 (choose avx2 or less)");
   CHECK(message("avx") == "--instructions: unknown instruction set 'avx' (did you mean avx2?)");

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 #include "support/build_speed.hpp"
+#include "support/error_of.hpp"
 
 using namespace remap;
 
@@ -21,12 +22,7 @@ const std::string kMark = "\xef\xbb\xbf";
 std::string decoded(const std::string& bytes) { return utf8_text(MemorySource(bytes), "file"); }
 
 std::string decoding_refusal(const std::string& bytes) {
-  try {
-    (void)decoded(bytes);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { (void)decoded(bytes); });
 }
 
 // Returns a text of letters, of characters of two to four bytes, and of line endings.
@@ -199,14 +195,12 @@ TEST_CASE("Numbers that cannot be read fail, others are clamped with a warning",
     const std::string text = "newmtl a\n" + line;
     const MtlDocument document(text, "file");
     std::vector<std::string> warnings;
-    try {
+    const std::string refusal = error_of([&] {
       MtlSurface surface;
       read_mtl_surface(document, document.materials()[0], MtlMaker::kText, surface, warnings);
       if (surface.exponent) warnings.push_back("n " + std::to_string(*surface.exponent));
-      return warnings.empty() ? std::string("fine") : warnings.front();
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
+    });
+    return !refusal.empty() ? refusal : warnings.empty() ? "fine" : warnings.front();
   };
   CHECK(read("Ns -5") == "n -5.000000");
   CHECK(read("Ns nan") == "Ns nan: expected an exponent from 0 to 1000");

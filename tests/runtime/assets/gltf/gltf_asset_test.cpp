@@ -10,6 +10,7 @@
 #include "core/number_text.hpp"
 #include "remap/error.hpp"
 #include "runtime/assets/gltf_texts.hpp"
+#include "support/error_of.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -21,12 +22,7 @@ AssetConversion result_of(const std::string& text, const AssetOptions& options =
 }
 
 std::string asset_failure(const std::string& bytes) {
-  try {
-    (void)convert_gltf(MemorySource(bytes), "a.glb");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { (void)convert_gltf(MemorySource(bytes), "a.glb"); });
 }
 
 // Returns the text of the only material after a conversion.
