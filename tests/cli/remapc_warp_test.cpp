@@ -44,6 +44,7 @@ WarpTexel template_texel(const Latent& at) {
 
 void write_skin(const Session& session, const std::string& folder, double phase,
                 const std::function<WarpTexel(const Latent&)>& texel) {
+  std::filesystem::create_directories(session.path(folder));
   const auto write = [&](const char* name, const std::vector<std::string>& channels, std::size_t first) {
     write_image(session.path(folder + "/" + name), test_spec(kSkinSize, kSkinSize, channels, OIIO::TypeFloat),
                 [&](int x, int y, int c) {

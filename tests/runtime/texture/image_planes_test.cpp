@@ -23,7 +23,7 @@
 #include "texture/texture_pass.hpp"
 
 using namespace remap;
-using Contains;
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("image library: it can be loaded, and the program can catch its errors") {
