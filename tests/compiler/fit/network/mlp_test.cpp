@@ -1,6 +1,8 @@
 // This file tests networks and their training: derivatives against finite differences, outputs against the
 // interpreter's formula, a known function of six inputs and four outputs, errors on unseen rows of the
 // published table, determinism, and samples that must be refused.
+#include "fit/network/mlp.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fit/network/mlp.hpp"
 #include "fit/network/network_batch.hpp"
 #include "fit/network/network_training.hpp"
 #include "lower/evaluate.hpp"

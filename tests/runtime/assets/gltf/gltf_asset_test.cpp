@@ -343,7 +343,7 @@ std::string json_in(const std::string& bytes) { return read_container(MemorySour
 TEST_CASE("Random files keep every byte outside of converted materials, in every direction", "[assets]") {
   const PlainResources resources;
   std::size_t converted = 0;
-  for (std::uint32_t seed = 0; seed < 1000; ++seed)
+  for (std::uint32_t seed = 0; seed < 600; ++seed)
     for (const AssetOptions& options : {kCoreOptions, kExactOptions, kToSpecGloss, kFolding, kCompacting}) {
       RandomText random(seed);
       const bool has_dielectrics = !options.writes_extensions() && seed % 2 == 0;
@@ -364,7 +364,7 @@ TEST_CASE("Random files keep every byte outside of converted materials, in every
       REQUIRE(converted_bytes(after, options, &resources) == after);
       converted += result.count(MaterialState::kConverted);
     }
-  CHECK(converted > 5000);
+  CHECK(converted > 3000);
 }
 
 TEST_CASE("Public files keep every byte outside of converted materials", "[assets][needs]") {
