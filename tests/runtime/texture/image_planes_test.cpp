@@ -86,15 +86,6 @@ void write_levels(const fs::path& path, const std::vector<std::string>& channels
                                            config));
 }
 
-std::array<float, 4> converted_texel(const Converter& converter, float roughness,
-                                     std::array<float, 3> specular) {
-  std::array<float, 4> result{};
-  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
-  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
-  converter.convert(1, &roughness, in, &result[0], out);
-  return result;
-}
-
 MapStatistics convert(const std::string& roughness, const std::string& specular, const fs::path& folder,
                       const Converter& converter) {
   TextureSetRequest request;
