@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDielectric = 0.04;  // F0 at the specular level 0.5
 
-ModelDescription metallic() { return make_builtin_renderer()->model("mitsuba/ggx-metallic"); }
+ModelDescription metallic() { return builtin_renderer().model("mitsuba/ggx-metallic"); }
 
 SweepOptions metallic_sweep(const ParameterRoles& roles, const std::vector<MappedTexel>& samples) {
   SweepOptions options = sweep_options("mitsuba/ggx-metallic", "mitsuba/ggx", "natural", samples, 96);
@@ -29,7 +29,6 @@ SweepOptions metallic_sweep(const ParameterRoles& roles, const std::vector<Mappe
 }  // namespace
 
 TEST_CASE("renderer: a metallic material is the diffuse and F0 of equation (2)") {
-  const auto renderer = make_builtin_renderer();
   const std::vector<double> base = {0.9, 0.5, 0.1};
   const Scene scene{48, 1, {50.0, 3.0}};
   for (const std::string shape : {"ggx", "beckmann", "as"})
@@ -40,18 +39,18 @@ TEST_CASE("renderer: a metallic material is the diffuse and F0 of equation (2)")
           diffuse.push_back(albedo * (1.0 - metal));
           f0.push_back(0.08 * level + metal * (albedo - 0.08 * level));
         }
-        const Image found = renderer->render(
+        const Image found = builtin_renderer().render(
             {"mitsuba/" + shape + "-metallic",
              {{"roughness", {0.5}}, {"base_color", base}, {"metallic", {metal}}, {"specular", {level}}}},
             scene);
-        const Image expected = renderer->render(
+        const Image expected = builtin_renderer().render(
             {"mitsuba/" + shape, {{"alpha", {0.25}}, {"f0", f0}, {"diffuse", diffuse}}}, scene);
         REQUIRE(found.values.size() == expected.values.size());
         for (std::size_t i = 0; i < found.values.size(); ++i)
           REQUIRE(found.values[i] == Approx(expected.values[i]).epsilon(1e-6));
       }
   CHECK_THROWS_WITH(
-      renderer->render(
+      builtin_renderer().render(
           {"mitsuba/ggx-metallic",
            {{"roughness", {0.5}}, {"base_color", {0.5}}, {"metallic", {0.1, 0.2, 0.3}}, {"specular", {0.5}}}},
           scene),
@@ -59,8 +58,7 @@ TEST_CASE("renderer: a metallic material is the diffuse and F0 of equation (2)")
 }
 
 TEST_CASE("roles: the base color of a metal is F0") {
-  const Table table =
-      sweep(*make_builtin_renderer(), metallic_sweep({}, grid_samples({0.1, 0.6}, 3, {0, 1}, 3)));
+  const Table table = sweep(builtin_renderer(), metallic_sweep({}, grid_samples({0.1, 0.6}, 3, {0, 1}, 3)));
   CHECK(comment(table, "source_roughness") == "roughness");
   CHECK(comment(table, "source_specular") == "base_color");
   CHECK(comment(table, "source_fixed") == "metallic=1,specular=0.5");
@@ -77,7 +75,7 @@ TEST_CASE("roles: metallic as the specular, with diffuse matched at once, is equ
   roles.fixed = {{"base_color", kAlbedo}};
   SweepOptions options = metallic_sweep(roles, {{0.1, 0.3}, {0.1, 0.9}, {0.3, 0.5}, {0.5, 0.7}});
   options.stages = 1;
-  const Table table = sweep(*make_builtin_renderer(), options);
+  const Table table = sweep(builtin_renderer(), options);
   CHECK(comment(table, "source_specular") == "metallic");
   CHECK(comment(table, "source_fixed") == "base_color=0.8,specular=0.5");
   for (const TableRow& row : table.rows) {
@@ -95,7 +93,7 @@ TEST_CASE("roles: the specular level of a black dielectric is a share of 8 %") {
   roles.specular = "specular";
   roles.fixed = {{"base_color", 0.0}, {"metallic", 0.0}};
   for (const TableRow& row :
-       sweep(*make_builtin_renderer(), metallic_sweep(roles, grid_samples({0.1, 0.6}, 3, {0, 1}, 3))).rows) {
+       sweep(builtin_renderer(), metallic_sweep(roles, grid_samples({0.1, 0.6}, 3, {0, 1}, 3))).rows) {
     CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-5));
     CHECK(row.specular2 == Approx(0.08 * row.specular1).epsilon(1e-4));
   }
@@ -106,7 +104,7 @@ TEST_CASE("roles: a target takes roles as a source does") {
       sweep_options("mitsuba/ggx", "mitsuba/ggx-metallic", "natural", {{0.2, 0.3}, {0.4, 0.6}}, 96);
   // The target is a metal, so its base color is its F0, and it has no diffuse that would disturb the match.
   options.target_roles.fixed = {{"metallic", 1.0}};
-  const Table table = sweep(*make_builtin_renderer(), options);
+  const Table table = sweep(builtin_renderer(), options);
   CHECK(comment(table, "target_fixed") == "metallic=1,specular=0.5");
   for (const TableRow& row : table.rows) CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-5));
 }
@@ -163,7 +161,7 @@ MaterialSampleOptions random_options(const std::string& source, const std::strin
 MaterialTable sampled(const MaterialSampleOptions& options, unsigned jobs = 0) {
   SweepExecution execution;
   execution.jobs = jobs;
-  return run_material_sample(*make_builtin_renderer(), options, execution);
+  return run_material_sample(builtin_renderer(), options, execution);
 }
 
 double at(const MaterialTable& table, const NamedRow& row, const std::string& column) {

@@ -32,8 +32,7 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
   REQUIRE(published.rows.size() == 721);
   std::vector<MappedTexel> samples;
   for (const TableRow& row : published.rows) samples.push_back({row.alpha1, row.specular1});
-  const Table own =
-      sweep(*make_builtin_renderer(), sweep_options("mitsuba/ward", "mitsuba/as", "paper", samples));
+  const Table own = sweep(builtin_renderer(), sweep_options("mitsuba/ward", "mitsuba/as", "paper", samples));
 
   double alpha_error = 0.0, specular_error = 0.0, subpixel_alpha_error = 0.0, subpixel_specular_error = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -55,9 +54,8 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
 TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured elsewhere", "[slow]") {
   // An independent prototype measured natural-1 .1221 and 1.032, paper .157 and 1.265, and Ward without
   // Fresnel .1188 and .712. Tolerances are a little more than half a unit of the last digit.
-  const auto renderer = make_builtin_renderer();
   const auto row = [&](const std::string& source, const std::string& target, const std::string& objective) {
-    return sweep(*renderer, sweep_options(source, target, objective, {{0.15, 0.5}})).rows.front();
+    return sweep(builtin_renderer(), sweep_options(source, target, objective, {{0.15, 0.5}})).rows.front();
   };
   const TableRow natural = row("mitsuba/beckmann", "mitsuba/ggx", "natural-1");
   CHECK(natural.alpha2 == Approx(0.1221).margin(6e-5));
@@ -71,12 +69,11 @@ TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured else
 }
 
 TEST_CASE("sweep: a model matched with itself is the identity") {
-  const auto renderer = make_builtin_renderer();
   for (const std::string model : {"mitsuba/ward", "mitsuba/ggx", "mitsuba/phong"}) {
     for (const std::string objective : {"natural-1", "natural-2", "paper"}) {
       const auto samples = grid_samples({0.05, 0.9}, 4, {0.0, 0.9}, 3);
       for (const TableRow& row :
-           sweep(*renderer, sweep_options(model, model, objective, samples, 128)).rows) {
+           sweep(builtin_renderer(), sweep_options(model, model, objective, samples, 128)).rows) {
         CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-6));
         CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-6));
         // The loss should be 0. The error is the square root of the small loss that interpolation causes.
@@ -88,16 +85,16 @@ TEST_CASE("sweep: a model matched with itself is the identity") {
 }
 
 TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
-  const auto renderer = make_builtin_renderer();
   const SweepOptions options =
       sweep_options("mitsuba/ggx", "mitsuba/beckmann", "natural", {{0.31, 0.37}}, 128);
-  const TableRow row = sweep(*renderer, options).rows.front();
+  const TableRow row = sweep(builtin_renderer(), options).rows.front();
 
-  const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
-  const auto source = picture_taker.take(renderer->model("mitsuba/ggx"), {0.31, 0.37, 0.0});
+  const PictureTaker picture_taker(builtin_renderer(), options.objective, options.resolution, 1);
+  const auto source = picture_taker.take(builtin_renderer().model("mitsuba/ggx"), {0.31, 0.37, 0.0});
   const auto weights = picture_taker.weights(source).squared;
   const auto loss = [&](double alpha, double specular) {
-    const auto target = picture_taker.take(renderer->model("mitsuba/beckmann"), {alpha, specular, 0.0});
+    const auto target =
+        picture_taker.take(builtin_renderer().model("mitsuba/beckmann"), {alpha, specular, 0.0});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += weights[i] * std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -116,16 +113,14 @@ TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
 }
 
 TEST_CASE("sweep: the table has the same bytes for any number of threads") {
-  const auto renderer = make_builtin_renderer();
   const SweepOptions options =
       sweep_options("mitsuba/ggx", "mitsuba/as", "natural", grid_samples({0.02, 1.0}, 7, {0.0, 1.0}, 4), 96);
-  const std::string one = table_text(sweep(*renderer, options, 1));
-  CHECK(table_text(sweep(*renderer, options, 2)) == one);
-  CHECK(table_text(sweep(*renderer, options, 5)) == one);
+  const std::string one = table_text(sweep(builtin_renderer(), options, 1));
+  CHECK(table_text(sweep(builtin_renderer(), options, 2)) == one);
+  CHECK(table_text(sweep(builtin_renderer(), options, 5)) == one);
 }
 
 TEST_CASE("sweep: ends soon after it is cancelled") {
-  const auto renderer = make_builtin_renderer();
   const SweepOptions options =
       sweep_options("mitsuba/ward", "mitsuba/as", "natural", grid_samples({0.05, 1.0}, 6, {0.0, 1.0}, 3), 64);
   std::atomic<bool> cancelled{false};
@@ -137,7 +132,7 @@ TEST_CASE("sweep: ends soon after it is cancelled") {
     rows = done;
     cancelled = done >= 9;
   };
-  CHECK_THROWS_WITH(run_sweep(*renderer, options, execution), "sweep: interrupted");
+  CHECK_THROWS_WITH(run_sweep(builtin_renderer(), options, execution), "sweep: interrupted");
   CHECK(rows == 9);
 }
 
@@ -145,7 +140,7 @@ TEST_CASE("sweep: rows on both sides mark where the target reaches a limit, and 
   std::vector<MappedTexel> samples;
   for (int j = 1; j <= 6; ++j) samples.push_back({0.65, j / 6.0});
   const Table table =
-      sweep(*make_builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));
+      sweep(builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));
   CHECK(table.limits.alpha == 1.0);
   CHECK(table.limits.specular == 1.0);
   // The samples keep their order, and the rows that were added follow them.
@@ -163,9 +158,8 @@ TEST_CASE("sweep: rows on both sides mark where the target reaches a limit, and 
 }
 
 TEST_CASE("sweep: a sample without specular is flat, one beyond the target's bound is clamped") {
-  const auto renderer = make_builtin_renderer();
-  const Table table = sweep(*renderer, sweep_options("mitsuba/beckmann", "mitsuba/ggx", "paper",
-                                                     {{0.5, 0.0}, {0.5, 0.4}, {0.5, 1.0}}, 64));
+  const Table table = sweep(builtin_renderer(), sweep_options("mitsuba/beckmann", "mitsuba/ggx", "paper",
+                                                              {{0.5, 0.0}, {0.5, 0.4}, {0.5, 1.0}}, 64));
   CHECK(table.rows[0].status == RowStatus::kFlat);
   CHECK(table.rows[0].specular2 == 0.0);
   CHECK(table.rows[1].status == RowStatus::kOk);
@@ -174,21 +168,19 @@ TEST_CASE("sweep: a sample without specular is flat, one beyond the target's bou
 }
 
 TEST_CASE("sweep: several lights are matched together") {
-  const auto renderer = make_builtin_renderer();
   SweepOptions options = sweep_options("mitsuba/beckmann", "mitsuba/ggx", "paper", {{0.3, 0.4}}, 96);
-  const double headlight = sweep(*renderer, options).rows.front().alpha2;
+  const double headlight = sweep(builtin_renderer(), options).rows.front().alpha2;
   options.objective.lights = {Light{70.0}};
-  const double side = sweep(*renderer, options).rows.front().alpha2;
+  const double side = sweep(builtin_renderer(), options).rows.front().alpha2;
   options.objective.lights = {Light{}, Light{70.0}};
-  const double both = sweep(*renderer, options).rows.front().alpha2;
+  const double both = sweep(builtin_renderer(), options).rows.front().alpha2;
   CHECK(both > std::min(headlight, side));
   CHECK(both < std::max(headlight, side));
 }
 
 TEST_CASE("bank: widths cover the range, within the model's, no further apart than the ratio") {
-  const auto renderer = make_builtin_renderer();
-  const PictureTaker picture_taker(*renderer, objective_preset("paper"), 8, 1);
-  const ModelDescription model = renderer->model("mitsuba/ggx");
+  const PictureTaker picture_taker(builtin_renderer(), objective_preset("paper"), 8, 1);
+  const ModelDescription model = builtin_renderer().model("mitsuba/ggx");
   const SpecularResponse response = probe_specular(picture_taker, model, {0.1, 1.0});
   // The last range is smaller than a window of full steps.
   for (const Range alphas :
@@ -232,12 +224,11 @@ SweepOptions staged(int stages, std::vector<MappedTexel> samples, double diffuse
 }  // namespace
 
 TEST_CASE("stages: a model matched with itself keeps width, specular and diffuse") {
-  const auto renderer = make_builtin_renderer();
   for (const int stages : {1, 2, 3})
     for (const std::string model : {"mitsuba/ward", "mitsuba/ggx", "mitsuba/phong"}) {
       SweepOptions options = staged(stages, {{0.15, 0.3}, {0.3, 0.6}});
       options.source = options.target = model;
-      for (const TableRow& row : sweep(*renderer, options).rows) {
+      for (const TableRow& row : sweep(builtin_renderer(), options).rows) {
         CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-4));
         CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-4));
         CHECK(row.diffuse2 == Approx(0.3).epsilon(1e-4));
@@ -249,10 +240,10 @@ TEST_CASE("stages: a model matched with itself keeps width, specular and diffuse
 
 TEST_CASE(
     "stages: three stages are never worse than two in the whole picture, and keep their start's basin") {
-  const auto renderer = make_builtin_renderer();
   const auto samples = grid_samples({0.1, 0.5}, 3, {0.0, 0.4}, 3);
-  const Table two = sweep(*renderer, staged(2, samples)), three = sweep(*renderer, staged(3, samples));
-  const Table one = sweep(*renderer, staged(1, samples));
+  const Table two = sweep(builtin_renderer(), staged(2, samples)),
+              three = sweep(builtin_renderer(), staged(3, samples));
+  const Table one = sweep(builtin_renderer(), staged(1, samples));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(three.rows[i].error <= two.rows[i].error * (1.0 + 1e-6));
     CHECK(two.rows[i].diffuse2 == 0.3);
@@ -265,10 +256,9 @@ TEST_CASE(
 }
 
 TEST_CASE("stages: width and specular of two stages do not depend on diffuse") {
-  const auto renderer = make_builtin_renderer();
   const std::vector<MappedTexel> samples = {{0.2, 0.3}, {0.4, 0.5}};
-  const Table with = sweep(*renderer, staged(2, samples)),
-              without = sweep(*renderer, staged(2, samples, 0.0));
+  const Table with = sweep(builtin_renderer(), staged(2, samples)),
+              without = sweep(builtin_renderer(), staged(2, samples, 0.0));
   CHECK_FALSE(without.has_diffuse);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(with.rows[i].alpha2 == without.rows[i].alpha2);
@@ -279,14 +269,13 @@ TEST_CASE("stages: width and specular of two stages do not depend on diffuse") {
 }
 
 TEST_CASE("stages: the joint match is a minimum of the whole picture as direct renders show it") {
-  const auto renderer = make_builtin_renderer();
   const SweepOptions options = staged(3, {{0.3, 0.3}});
-  const TableRow row = sweep(*renderer, options).rows.front();
-  const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
-  const auto source = picture_taker.take(renderer->model("mitsuba/as"), RoleValues{0.3, 0.3, 0.3});
+  const TableRow row = sweep(builtin_renderer(), options).rows.front();
+  const PictureTaker picture_taker(builtin_renderer(), options.objective, options.resolution, 1);
+  const auto source = picture_taker.take(builtin_renderer().model("mitsuba/as"), RoleValues{0.3, 0.3, 0.3});
   const auto loss = [&](double alpha, double specular, double diffuse) {
     const auto target =
-        picture_taker.take(renderer->model("mitsuba/ward"), RoleValues{alpha, specular, diffuse});
+        picture_taker.take(builtin_renderer().model("mitsuba/ward"), RoleValues{alpha, specular, diffuse});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -304,8 +293,7 @@ TEST_CASE("stages: the joint match is a minimum of the whole picture as direct r
 }
 
 TEST_CASE("stages: a joint match at a bound is clamped or unstable, and records its initial guess") {
-  const auto renderer = make_builtin_renderer();
-  const Table table = sweep(*renderer, staged(1, {{0.6, 0.9}}));
+  const Table table = sweep(builtin_renderer(), staged(1, {{0.6, 0.9}}));
   CHECK(table.rows.front().specular2 == Approx(1.0));
   CHECK(table.rows.front().status != RowStatus::kOk);
   CHECK(comment(table, "stages") == "1");
@@ -339,11 +327,10 @@ TEST_CASE("stages: a target whose diffuse does not add is detected and matched b
 }
 
 TEST_CASE("stages: a black source is flat") {
-  const auto renderer = make_builtin_renderer();
   // specular is an index, and 1 means no boundary at all
   SweepOptions options = staged(1, {{0.3, 1.0}, {0.3, 1.5}}, 0.0);
   options.source = "mitsuba/as-dielectric";
-  const Table table = sweep(*renderer, options);
+  const Table table = sweep(builtin_renderer(), options);
   CHECK(table.rows[0].status == RowStatus::kFlat);
   CHECK(table.rows[0].specular2 == 0.0);
   CHECK(table.rows[1].specular2 > 0.01);
@@ -352,11 +339,12 @@ TEST_CASE("stages: a black source is flat") {
 TEST_CASE(
     "stages: tables with diffuse are the same for any number of threads, and options out of range are "
     "refused") {
-  const auto renderer = make_builtin_renderer();
   const SweepOptions options = staged(3, grid_samples({0.2, 0.5}, 3, {0.0, 0.5}, 2));
-  CHECK(table_text(sweep(*renderer, options, 1)) == table_text(sweep(*renderer, options, 2)));
-  CHECK_THROWS_WITH(sweep(*renderer, staged(4, {{0.3, 0.3}})), Catch::Contains("stages: 4 is out of range"));
-  CHECK_THROWS_WITH(sweep(*renderer, staged(2, {{0.3, 0.3}}, 1.5)),
+  CHECK(table_text(sweep(builtin_renderer(), options, 1)) ==
+        table_text(sweep(builtin_renderer(), options, 2)));
+  CHECK_THROWS_WITH(sweep(builtin_renderer(), staged(4, {{0.3, 0.3}})),
+                    Catch::Contains("stages: 4 is out of range"));
+  CHECK_THROWS_WITH(sweep(builtin_renderer(), staged(2, {{0.3, 0.3}}, 1.5)),
                     Catch::Contains("diffuse 1.5 is out of range"));
 }
 
@@ -441,7 +429,6 @@ TEST_CASE("objective: a black picture leaves finite weights") {
 
 TEST_CASE("objective: natural is its newest version, and a sweep finds the minimum of its loss") {
   CHECK(objective_preset("natural") == objective_preset("natural-2"));
-  const auto renderer = make_builtin_renderer();
   constexpr int kSide = 64;
   using Pair = std::pair<std::string, std::string>;
   for (const Pair& pair : {Pair{"mitsuba/ggx", "mitsuba/beckmann"}, Pair{"mitsuba/ward", "mitsuba/ggx"}}) {
@@ -449,14 +436,16 @@ TEST_CASE("objective: natural is its newest version, and a sweep finds the minim
     const auto& target = pair.second;
     INFO(source);
     const TableRow row =
-        sweep(*renderer, sweep_options(source, target, "natural-2", {{0.31, 0.37}}, kSide)).rows.front();
-    const NaturalLoss loss(*renderer, grey_material(renderer->model(source), 0.31, 0.37, 0.0), kSide);
+        sweep(builtin_renderer(), sweep_options(source, target, "natural-2", {{0.31, 0.37}}, kSide))
+            .rows.front();
+    const NaturalLoss loss(builtin_renderer(),
+                           grey_material(builtin_renderer().model(source), 0.31, 0.37, 0.0), kSide);
     const auto at = [&](double alpha, double specular) {
-      return loss(grey_material(renderer->model(target), alpha, specular, 0.0));
+      return loss(grey_material(builtin_renderer().model(target), alpha, specular, 0.0));
     };
     const double least = at(row.alpha2, row.specular2);
     const double of_pixels =
-        loss.of_pixels(grey_material(renderer->model(target), row.alpha2, row.specular2, 0.0));
+        loss.of_pixels(grey_material(builtin_renderer().model(target), row.alpha2, row.specular2, 0.0));
     CHECK(row.error == Approx(std::sqrt(of_pixels)).epsilon(1e-4));
     for (const double step : {-2e-3, 2e-3}) {
       CHECK(at(row.alpha2 + step, row.specular2) > least);
