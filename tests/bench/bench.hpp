@@ -20,28 +20,11 @@ struct Maps {
   std::array<std::vector<float>, 4> in, out;
 };
 
-// large_maps() have 4096^2 texels, far more than any cache holds. small_maps() have 64^2, which fit into one.
-Maps& large_maps();
-Maps& small_maps();
-
-// Compares a benchmark of rows of texels with memcpy on the same maps, `large` or `small`.
-Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
-             const std::string& maps);
-
-void add_passes();
-Section texel_section(const Medians& medians);
-
 void add_converters();
 Section converter_section(const Medians& medians);
 
 void add_maps();
 Section maps_section(const Medians& medians);
-
-void add_rivals();
-Section rival_section(const Medians& medians);
-
-void add_networks();
-Section network_section(const Medians& medians);
 
 void add_workflows();
 Section workflow_section(const Medians& medians);

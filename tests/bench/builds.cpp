@@ -38,9 +38,7 @@ std::vector<Build<Function>> runnable() {
 }  // namespace
 
 std::vector<Build<Pass>> pass_builds() { return runnable<Pass>(); }
-std::vector<Build<TexelPass>> texel_builds() { return runnable<TexelPass>(); }
 std::vector<Build<MaterialPass>> material_builds() { return runnable<MaterialPass>(); }
-std::vector<Build<ProductsPass>> products_builds() { return runnable<ProductsPass>(); }
 
 std::string flags_text(const std::string& flags) {
   if (flags == "o2") return "-O2";

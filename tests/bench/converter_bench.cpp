@@ -1,6 +1,7 @@
 // This file measures shipped converters, which texremap interprets as data, against the compiled headers of
 // the same converters.
 #include <algorithm>
+#include <random>
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
@@ -35,6 +36,13 @@ std::vector<Pair> pairs() {
   return pairs;
 }
 
+void convert(Maps& maps, Pass pass) {
+  auto& in = maps.in;
+  auto& out = maps.out;
+  benchmark::DoNotOptimize(pass(maps.texels, in[0].data(), {in[1].data(), in[2].data(), in[3].data()},
+                                out[0].data(), {out[1].data(), out[2].data(), out[3].data()}));
+}
+
 std::string data_name(const Pair& pair) { return "data_" + pair.header + "/small"; }
 
 void convert(const remap::Converter& converter, Maps& maps) {
@@ -44,9 +52,27 @@ void convert(const remap::Converter& converter, Maps& maps) {
       converter.convert(maps.texels, maps.in[0].data(), specular, maps.out[0].data(), specular_out));
 }
 
+Maps& small_maps() {
+  static Maps maps(64 * 64);
+  return maps;
+}
+
 }  // namespace
 
+Maps::Maps(std::size_t count) : texels(count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> share(0.01f, 0.99f);
+  for (auto& row : in) {
+    row.resize(texels);
+    for (float& value : row) value = &row == &in[0] ? share(random) : 0.2f * share(random);
+  }
+  for (auto& row : out) row.assign(texels, 1.0f);
+}
+
 void add_converters() {
+  for (const Build<Pass>& build : pass_builds())
+    add_benchmark(build.code + "_" + build.flags + "/small", small_maps().texels, 7,
+                  [pass = build.function] { convert(small_maps(), pass); });
   for (const Pair& pair : pairs())
     add_benchmark(data_name(pair), small_maps().texels, 7,
                   [converter = pair.data] { convert(*converter, small_maps()); });

@@ -23,19 +23,16 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, pointers.data());
   if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
 
-  add_passes();
   add_converters();
   add_maps();
-  add_rivals();
-  add_networks();
   add_workflows();
   add_warps();
   add_fits();
   Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
-  const std::vector<Section> sections = {
-      converter_section(medians), maps_section(medians),     rival_section(medians), network_section(medians),
-      texel_section(medians),     workflow_section(medians), warp_section(medians),  fit_section(medians)};
+  const std::vector<Section> sections = {converter_section(medians), maps_section(medians),
+                                         workflow_section(medians), warp_section(medians),
+                                         fit_section(medians)};
   if (json)
     print_json(sections);
   else

@@ -20,6 +20,11 @@ const remap::Converter& ward_to_as() {
   throw std::logic_error("no converter mitsuba_ward_to_mitsuba_as");
 }
 
+Maps& large_maps() {
+  static Maps maps(kSide * kSide);
+  return maps;
+}
+
 // Describes width and RGB in four planes of floats.
 remap::MapConversion planes(Maps& maps) {
   remap::MapConversion conversion;

@@ -47,7 +47,6 @@ MaterialMaps& maps() {
 }
 
 bool is_to_metallic(const std::string& code) { return code.starts_with("specular_to_metallic"); }
-bool is_network(const std::string& code) { return code == kNetworkHeader; }
 
 void convert(const Build<MaterialPass>& build, std::size_t texels) {
   MaterialMaps& m = maps();
@@ -74,6 +73,14 @@ std::optional<double> speed_goal(const std::string& code, const std::string& fla
   return is_to_metallic(code) ? 50.0 : 0.8;
 }
 
+// Compares a benchmark of rows of texels with memcpy of the large rows.
+Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
+             const std::string& maps) {
+  return {what,       mega_items(medians, name + "/" + maps),
+          "Mtexel/s", speed_ratio(medians, name + "/" + maps, "memcpy/" + maps),
+          "memcpy",   {}};
+}
+
 }  // namespace
 
 void add_workflows() {
@@ -81,7 +88,6 @@ void add_workflows() {
   for (const Build<MaterialPass>& build : material_builds()) {
     const std::string name = build.code + "_" + build.flags;
     add_benchmark(name + "/small", kSmallTexels, 7, [build] { convert(build, kSmallTexels); });
-    if (is_network(build.code)) continue;  // network_section() measures these against Eigen
     add_benchmark(name + "/materials", kLargeTexels, 15, [build] { convert(build, kLargeTexels); });
   }
 }
@@ -91,7 +97,6 @@ Section workflow_section(const Medians& medians) {
   section.rows.push_back(pass_row(medians, "memcpy of 6 rows, 2048 x 2048", "memcpy", "materials"));
   section.rows.back().ratio.reset();
   for (const Build<MaterialPass>& build : material_builds()) {
-    if (is_network(build.code)) continue;
     const std::string name = build.code + "_" + build.flags,
                       what = build.code + " at " + flags_text(build.flags);
     section.rows.push_back(pass_row(medians, what + ", 2048 x 2048", name, "materials"));

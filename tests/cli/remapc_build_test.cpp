@@ -185,9 +185,7 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
 
 TEST_CASE("remapc build: a table that was changed after its fit is reported") {
   const Session session;
-  session.write(
-      "fits/manifest.json",
-      R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
+  session.write("fits/manifest.json", kEmptyManifest);
   session.write("fits/tables/t.csv", made_table(14, 4));
   require_success(session.remapc(session.fit("fits/tables/t.csv")));
   CHECK(session.remapc(build_of("--check")).output.find("out of date with the fits") != std::string::npos);

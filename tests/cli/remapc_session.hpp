@@ -42,6 +42,9 @@ class Session : public CommandFolder {
   }
 };
 
+inline const std::string kEmptyManifest =
+    R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})";
+
 inline const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
 
 // Returns a table of a smooth conversion between two models, with `widths` x `speculars` rows. No renderer

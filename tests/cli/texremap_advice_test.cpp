@@ -7,10 +7,10 @@
 #include <set>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "check/rules.hpp"
 #include "cli/texremap_session.hpp"
+#include "core/base64.hpp"
 #include "support/skip.hpp"
 
 using namespace remap;
@@ -49,36 +49,43 @@ std::vector<Shape> normals(bool is_directx) {
   return {normal(0, is_directx), normal(1, is_directx), normal(2, is_directx)};
 }
 
+// An AdviceMap is an image in the folder `in`.
+struct AdviceMap {
+  std::string name;
+  std::vector<Shape> channels;
+  std::string tag = "";
+  OIIO::TypeDesc type = OIIO::TypeUInt8;
+  int width = kAdviceSide, height = width;
+};
+
 class AdviceSession : public Session {
  public:
   AdviceSession() { fs::create_directories(path("in")); }
-  void put(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-  }
-  void map(const std::string& name, const std::vector<Shape>& channels, const std::string& tag = "",
-           OIIO::TypeDesc type = OIIO::TypeUInt8, int width = kAdviceSide, int height = kAdviceSide) const {
-    const std::vector<std::string> names = channels.size() == 1 ? std::vector<std::string>{"Y"}
-                                           : channels.size() == 3
-                                               ? std::vector<std::string>{"R", "G", "B"}
-                                               : std::vector<std::string>{"R", "G", "B", "A"};
-    OIIO::ImageSpec spec = test_spec(width, height, names, type);
-    if (!tag.empty()) spec.attribute("oiio:ColorSpace", tag);
-    if (tag == "sRGB") spec.attribute("Exif:ColorSpace", 1);
-    make(name, spec, [&](int x, int y, int c) {
-      return static_cast<float>(channels[static_cast<std::size_t>(c)]((x + 0.5) / width, (y + 0.5) / height));
+  void write(const AdviceMap& map) const {
+    const std::size_t count = map.channels.size();
+    OIIO::ImageSpec spec = test_spec(map.width, map.height,
+                                     count == 1   ? kGrey
+                                     : count == 3 ? kColor
+                                                  : kWithAlpha,
+                                     map.type);
+    if (!map.tag.empty()) spec.attribute("oiio:ColorSpace", map.tag);
+    if (map.tag == "sRGB") spec.attribute("Exif:ColorSpace", 1);
+    make("in/" + map.name, spec, [&](int x, int y, int c) {
+      return static_cast<float>(
+          map.channels[static_cast<std::size_t>(c)]((x + 0.5) / map.width, (y + 0.5) / map.height));
     });
   }
   // Writes in/a.gltf with one material. Texture i uses image i.
   void gltf(const std::string& material, const std::vector<std::string>& images = {}) const {
-    std::string list, textures;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      list += (i > 0 ? "," : "") + std::string(R"({"uri":")") + images[i] + "\"}";
-      textures += (i > 0 ? "," : "") + std::string(R"({"source":)") + std::to_string(i) + "}";
+    nlohmann::json list = nlohmann::json::array(), textures = list;
+    for (const std::string& image : images) {
+      textures.push_back({{"source", list.size()}});
+      list.push_back({{"uri", image}});
     }
-    const std::string with_images =
-        images.empty() ? "" : R"(,"images":[)" + list + R"(],"textures":[)" + textures + "]";
+    const std::string more =
+        images.empty() ? "" : R"(,"images":)" + list.dump() + R"(,"textures":)" + textures.dump();
     put("in/a.gltf",
-        R"({"asset":{"version":"2.0"},"materials":[{"name":"m",)" + material + "}]" + with_images + "}");
+        R"({"asset":{"version":"2.0"},"materials":[{"name":"m",)" + material + "}]" + more + "}");
   }
 
   // Returns the findings of one rule in `paths`. Checks what the command prints and returns.
@@ -101,246 +108,154 @@ class AdviceSession : public Session {
   }
 };
 
-enum class Help { kCommand, kWords };  // how the finding can be fixed
+enum Help { kCommand, kWords };  // how the finding can be fixed
 
+// A Fault has maps. If it has a material, maps whose names have no `_` are its textures.
 struct Fault {
-  std::string rule;
-  std::string what;
-  Help help = Help::kCommand;
-  std::string checked;  // arguments of `texremap check`
-  std::function<void(const AdviceSession&)> make;
+  std::string rule, what;
+  std::vector<AdviceMap> maps;
+  Help help;
+  std::string material;
+  std::string checked;  // arguments of `texremap check`; empty: the asset of the material, or the folder
+  std::function<void(const AdviceSession&)> more;
+
+  std::string arguments() const { return !checked.empty() ? checked : material.empty() ? "in" : "in/a.gltf"; }
+  void write(const AdviceSession& session) const {
+    std::vector<std::string> images;
+    for (const AdviceMap& map : maps) {
+      session.write(map);
+      if (map.name.find('_') == std::string::npos) images.push_back(map.name);
+    }
+    if (!material.empty()) session.gltf(material, images);
+    if (more) more(session);
+  }
 };
 
 const std::string kRoughTexture = R"("pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}})";
-const std::string kBaseTexture =
-    R"("pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0}})";
+const std::string kPlasticTexture =
+    R"("pbrMetallicRoughness":{"metallicFactor":0,"metallicRoughnessTexture":{"index":0}})";
 const std::string kPlasticFactor = R"("pbrMetallicRoughness":{"metallicFactor":0},)";
-const std::string kGloss =
-    R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
-    R"("specularGlossinessTexture":{"index":1}}})";
+const std::string kGlossFactor =
+    R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}})";
+
+// Returns a material of two textures. `more` belongs to the second.
+std::string gloss_textures(const std::string& more = "") {
+  return R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
+         R"("specularGlossinessTexture":{"index":1)" +
+         more + "}}}";
+}
+const std::string kTransform = R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})";
+const std::string kBrightSpecular =
+    R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[1.5,1.5,1.5]})";
+
+const std::vector<Shape> kAdviceColor = {bumps, opposite, patches}, kAdviceOrm = {flat(1), bumps, patches},
+                         kAdviceGloss = {bumps, bumps, bumps, opposite};
+
+std::vector<Shape> with_alpha(std::vector<Shape> shapes) {
+  shapes.push_back(power_of(0.5));
+  return shapes;
+}
 
 std::vector<Fault> faults() {
   using S = const AdviceSession&;
-  const std::vector<Shape> color = {bumps, opposite, patches};
+  const auto &color = kAdviceColor, &orm = kAdviceOrm, &gloss = kAdviceGloss;
+  const OIIO::TypeDesc bytes = OIIO::TypeUInt8, half = OIIO::TypeHalf;
+  const auto metal = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
+  const auto beyond = [](double x, double y) { return y < 0.1 ? NAN : 1.5 * x - 0.2; };
+  const auto heights = [](double x, double y) { return y < 0.1 ? NAN : 3.0 * x - 1.0; };
+  const auto dark = [](double x, double) { return 0.01 + 0.03 * x; };
+  const auto cosine = [](double x, double) { return 0.5 + 0.5 * std::cos(6.28 * x); };
+  const auto sine = [](double x, double) { return 0.5 + 0.5 * std::sin(6.28 * x); };
+  const auto mtl = [](const std::string& text) { return [text](S s) { s.put("in/a.mtl", text); }; };
   std::vector<Fault> all;
-  for (const std::string extension : {"png", "jpg", "tif"})
-    all.push_back({"srgb-data", "a tag in " + extension, Help::kCommand, "in",
-                   [=](S s) { s.map("in/a_Roughness." + extension, {bumps}, "sRGB"); }});
-  all.insert(
-      all.end(),
-      {{"srgb-data", "a tag in an asset", Help::kCommand, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", {flat(1), bumps, patches}, "sRGB");
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
-       {"srgb-data", "a map alone", Help::kCommand, "in/a_Roughness.png",
-        [](S s) { s.map("in/a_Roughness.png", {bumps}, "sRGB"); }},
-       {"srgb-data", "maps of one name in two folders", Help::kCommand, "in",
-        [](S s) {
-          for (const std::string folder : {"in/a", "in/b/c"}) {
-            fs::create_directories(s.path(folder));
-            s.map(folder + "/roughness.png", {bumps}, "sRGB");
-            s.map(folder + "/basecolor.png", {bumps, opposite, patches});
-          }
-        }},
-       {"srgb-data", "a texture of an asset in a folder of its own", Help::kCommand, "in",
-        [](S s) {
-          fs::create_directories(s.path("in/textures"));
-          s.map("in/textures/x.png", {flat(1), bumps, patches}, "sRGB");
-          s.gltf(kRoughTexture, {"textures/x.png"});
-        }},
-       {"srgb-data", "a name that a shell would split", Help::kCommand, "in",
-        [](S s) { s.map("in/it's a_Roughness.png", {bumps}, "sRGB"); }},
-       {"srgb-data", "stored through the curve", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/rock_rough_2k.png", {through_srgb});
-          s.map("in/rock_arm_2k.png", {flat(1), bumps, patches});
-        }},
-       {"srgb-data", "stored through the curve in an asset", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/x.png", {through_srgb, through_srgb, through_srgb});
-          s.map("in/a_Roughness.png", {bumps});
-          s.gltf(R"("pbrMetallicRoughness":{"metallicFactor":0,"metallicRoughnessTexture":{"index":0}})",
-                 {"x.png"});
-        }},
-       {"linear-color", "a set", Help::kCommand, "in",
-        [=](S s) { s.map("in/a_BaseColor.png", color, "Linear"); }},
-       {"linear-color", "an asset", Help::kCommand, "in/a.gltf",
-        [=](S s) {
-          s.map("in/x.png", color, "Linear");
-          s.gltf(kBaseTexture, {"x.png"});
-        }},
-       {"gloss-as-roughness", "a set", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Roughness.png", {bumps});
-          s.map("in/a_Glossiness.png", {bumps});
-        }},
-       {"gloss-as-roughness", "an asset beside its source", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/x.png", {flat(1), opposite, patches});
-          s.map("in/a_Roughness.png", {bumps});
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
-       {"alpha-as-roughness", "alpha of a set", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Roughness.png", {power_of(2.0)});
-          s.map("in/a_Glossiness.png", {opposite});
-        }},
-       {"alpha-as-roughness", "a gloss map of alpha", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Roughness.exr", {bumps}, "", OIIO::TypeHalf);
-          s.map("in/a_Glossiness.exr", {[](double x, double y) { return 1.0 - std::pow(bumps(x, y), 2.0); }},
-                "", OIIO::TypeHalf);
-        }},
-       {"alpha-as-roughness", "squared twice beside roughness", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Roughness.exr", {bumps}, "", OIIO::TypeHalf);
-          s.map("in/a_Alpha.exr", {power_of(4.0)}, "", OIIO::TypeHalf);
-        }},
-       {"alpha-as-roughness", "an asset beside its source", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/x.png", {flat(1), power_of(2.0), patches});
-          s.map("in/a_Roughness.png", {bumps});
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
-       {"channel-order", "a set", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/T_a_ORM.png", {flat(1), patches, bumps});
-        }},
-       {"channel-order", "an image with alpha", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/T_a_ORM.png", {flat(1), patches, bumps, power_of(0.5)});
-        }},
-       {"channel-order", "an asset", Help::kCommand, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", {patches, bumps, flat(0)});
-          s.gltf(kRoughTexture, {"x.png"});
-        }},
-       {"specgloss-channels", "a set", Help::kWords, "in",
-        [=](S s) { s.map("in/a_SpecularGlossiness.png", color); }},
-       {"sizes", "a set of three sizes", Help::kCommand, "in",
-        [=](S s) {
-          s.map("in/a_BaseColor.png", color, "", OIIO::TypeUInt8, 32, 32);
-          s.map("in/a_Roughness.png", {bumps}, "", OIIO::TypeUInt8, 64, 64);
-          s.map("in/a_Metallic.png", {patches}, "", OIIO::TypeUInt8, 64, 32);
-        }},
-       {"wrong-texture", "a set", Help::kWords, "in",
-        [](S s) { s.map("in/a_BaseColor.png", normals(false)); }},
-       {"metallic-greys", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Metallic.png", {bumps}); }},
-       {"factor-zero", "roughness", Help::kWords, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", {flat(1), bumps, patches});
-          s.gltf(R"("pbrMetallicRoughness":{"roughnessFactor":0,"metallicRoughnessTexture":{"index":0}})",
-                 {"x.png"});
-        }},
-       {"factor-ignored", "metallic of 0", Help::kWords, "in/a.gltf --for unity",
-        [](S s) {
-          s.map("in/x.png", {flat(1), bumps, patches});
-          s.gltf(R"("pbrMetallicRoughness":{"metallicFactor":0,"metallicRoughnessTexture":{"index":0}})",
-                 {"x.png"});
-        }},
-       {"normal-space", "a set", Help::kWords, "in",
-        [](S s) {
-          s.map("in/a_Normal.png",
-                {[](double x, double) { return 0.5 + 0.5 * std::cos(6.28 * x); }, flat(0.5),
-                 [](double x, double) { return 0.5 + 0.5 * std::sin(6.28 * x); }});
-        }},
-       {"normal-orientation", "a set", Help::kCommand, "in",
-        [](S s) { s.map("in/a_NormalGL.png", normals(true)); }},
-       {"normal-orientation", "an image with alpha", Help::kCommand, "in",
-        [](S s) {
-          std::vector<Shape> channels = normals(true);
-          channels.push_back(power_of(0.5));
-          s.map("in/a_NormalGL.png", channels);
-        }},
-       {"normal-orientation", "a map for a reader", Help::kCommand, "in --for unreal",
-        [](S s) { s.map("in/a_Normal.png", normals(false)); }},
-       {"normal-orientation", "an asset", Help::kCommand, "in/a.gltf",
-        [](S s) {
-          s.map("in/x.png", normals(true));
-          s.gltf(R"("normalTexture":{"index":0})", {"x.png"});
-        }},
-       {"specular-color", "a set", Help::kWords, "in",
-        [](S s) {
-          const auto linear = [](double, double y) { return y < 0.9 ? 0.04 : 0.9; };
-          s.map("in/a_Specular.png", {linear, linear, linear});
-        }},
-       {"constant-map", "a set", Help::kWords, "in", [](S s) { s.map("in/a_Roughness.png", {flat(0.5)}); }},
-       {"banding", "a set", Help::kWords, "in",
-        [](S s) { s.map("in/a_Roughness.png", {[](double x, double) { return 0.01 + 0.03 * x; }}); }},
-       {"bad-values", "a set", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Roughness.exr", {[](double x, double y) { return y < 0.1 ? NAN : 1.5 * x - 0.2; }}, "",
-                OIIO::TypeHalf);
-        }},
-       {"bad-values", "NaN in heights", Help::kCommand, "in",
-        [](S s) {
-          s.map("in/a_Height.exr", {[](double x, double y) { return y < 0.1 ? NAN : 3.0 * x - 1.0; }}, "",
-                OIIO::TypeFloat);
-        }},
-       {"bad-values", "an asset", Help::kCommand, "in/a.mtl",
-        [](S s) {
-          s.map("in/x.exr", {[](double x, double) { return 1.5 * x - 0.2; }}, "", OIIO::TypeHalf);
-          s.put("in/a.mtl", "newmtl m\nKd 1 1 1\nmap_Pr x.exr\n");
-        }},
-       {"ior", "an asset", Help::kWords, "in/a.gltf",
-        [](S s) { s.gltf(kPlasticFactor + R"("extensions":{"KHR_materials_ior":{"ior":1000}})"); }},
-       {"ignored-by-reader", "specular-glossiness", Help::kCommand, "in/a.gltf --for threejs",
-        [](S s) {
-          s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}})");
-        }},
-       {"ignored-by-reader", "two assets of one name", Help::kCommand, "in --for threejs",
-        [](S s) {
-          s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}})");
-          for (const std::string folder : {"in/b", "in/c"}) {
-            fs::create_directories(s.path(folder));
-            fs::copy(s.path("in/a.gltf"), s.path(folder + "/a.gltf"));
-          }
-        }},
-       {"ignored-by-reader", "maps of two sizes", Help::kCommand, "in/a.gltf --for threejs",
-        [=](S s) {
-          s.map("in/x.png", color);
-          s.map("in/y.png", {bumps, bumps, bumps, opposite}, "", OIIO::TypeUInt8, 24, 24);
-          s.gltf(kGloss, {"x.png", "y.png"});
-        }},
-       {"ignored-by-reader", "maps in two places", Help::kCommand, "in/a.gltf --for threejs",
-        [=](S s) {
-          s.map("in/x.png", color);
-          s.map("in/y.png", {bumps, bumps, bumps, opposite});
-          s.gltf(
-              R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
-              R"("specularGlossinessTexture":{"index":1,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}}})",
-              {"x.png", "y.png"});
-        }},
-       {"ignored-by-reader", "specular and ior", Help::kCommand, "in/a.gltf --for godot",
-        [](S s) {
-          s.gltf(kPlasticFactor +
-                 R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[1.5,1.5,1.5]},)"
-                 R"("KHR_materials_ior":{"ior":1.4}})");
-        }},
-       {"ignored-by-reader", "materials of all kinds", Help::kCommand, "in/a.gltf --for gltf",
-        [=](S s) {
-          s.map("in/x.png", color);
-          s.map("in/y.png", {bumps, bumps, bumps, opposite}, "", OIIO::TypeUInt8, 24, 24);
-          s.gltf(kGloss + "},{" + kPlasticFactor +
-                     R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[1.5,1.5,1.5]}})",
-                 {"x.png", "y.png"});
-        }},
-       {"ignored-by-reader", "ior of a volume", Help::kWords, "in/a.gltf --for godot",
-        [](S s) {
-          s.gltf(kPlasticFactor +
-                 R"("extensions":{"KHR_materials_ior":{"ior":1.4},"KHR_materials_volume":{}})");
-        }},
-       {"ignored-by-reader", "clearcoat", Help::kWords, "in/a.gltf --for godot",
-        [](S s) { s.gltf(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}})"); }},
-       {"unreadable-statement", "an asset", Help::kWords, "in/a.mtl",
-        [](S s) { s.put("in/a.mtl", "newmtl a\nKd .5 .5 .5\nNs shiny\n"); }},
-       {"exponent-range", "an asset", Help::kWords, "in/a.mtl",
-        [](S s) { s.put("in/a.mtl", "newmtl m\nKs 1 1 1\nNs 0.5\nnewmtl n\nKs 1 1 1\nNs 0.7\n"); }},
-       {"duplicate-map", "a set", Help::kWords, "in", [](S s) {
-          s.map("in/a_Roughness.png", {bumps});
-          s.map("in/a_AO.png", {bumps});
-        }}});
+  const auto add = [&](const std::string& rule, const std::string& what, const std::vector<AdviceMap>& maps,
+                       Help help = kCommand, const std::string& material = "",
+                       const std::string& checked = "", const std::function<void(S)>& more = {}) {
+    all.push_back({rule, what, maps, help, material, checked, more});
+  };
+  add("srgb-data", "a tag in PNG", {{"a_Roughness.png", {bumps}, "sRGB"}});
+  add("srgb-data", "a tag in JPEG", {{"a_Roughness.jpg", {bumps}, "sRGB"}});
+  add("srgb-data", "a tag in TIFF", {{"a_Roughness.tif", {bumps}, "sRGB"}});
+  add("srgb-data", "a tag in an asset", {{"x.png", orm, "sRGB"}}, kCommand, kRoughTexture);
+  add("srgb-data", "one map", {{"a_Roughness.png", {bumps}, "sRGB"}}, kCommand, "", "in/a_Roughness.png");
+  add("srgb-data", "maps of one name in two folders",
+      {{"a/roughness.png", {bumps}, "sRGB"},
+       {"a/basecolor.png", color},
+       {"b/c/roughness.png", {bumps}, "sRGB"},
+       {"b/c/basecolor.png", color}});
+  add("srgb-data", "a texture of an asset in its own folder", {{"textures/x.png", orm, "sRGB"}}, kCommand,
+      kRoughTexture, "in");
+  add("srgb-data", "a name that a shell would split", {{"it's a_Roughness.png", {bumps}, "sRGB"}});
+  add("srgb-data", "stored through the curve",
+      {{"rock_rough_2k.png", {through_srgb}}, {"rock_arm_2k.png", orm}});
+  add("srgb-data", "stored through the curve in an asset",
+      {{"x.png", {through_srgb, through_srgb, through_srgb}}, {"a_Roughness.png", {bumps}}}, kCommand,
+      kPlasticTexture, "in");
+  add("linear-color", "a set", {{"a_BaseColor.png", color, "Linear"}});
+  add("linear-color", "an asset", {{"x.png", color, "Linear"}}, kCommand,
+      R"("pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0}})");
+  add("gloss-as-roughness", "a set", {{"a_Roughness.png", {bumps}}, {"a_Glossiness.png", {bumps}}});
+  add("gloss-as-roughness", "an asset beside its source",
+      {{"x.png", {flat(1), opposite, patches}}, {"a_Roughness.png", {bumps}}}, kCommand, kRoughTexture, "in");
+  add("alpha-as-roughness", "a set",
+      {{"a_Roughness.png", {power_of(2.0)}}, {"a_Glossiness.png", {opposite}}});
+  add("alpha-as-roughness", "a gloss map of alpha",
+      {{"a_Roughness.exr", {bumps}, "", half},
+       {"a_Glossiness.exr", {[](double x, double y) { return 1.0 - power_of(2.0)(x, y); }}, "", half}});
+  add("alpha-as-roughness", "squared twice beside roughness",
+      {{"a_Roughness.exr", {bumps}, "", half}, {"a_Alpha.exr", {power_of(4.0)}, "", half}});
+  add("alpha-as-roughness", "an asset beside its source",
+      {{"x.png", {flat(1), power_of(2.0), patches}}, {"a_Roughness.png", {bumps}}}, kCommand, kRoughTexture,
+      "in");
+  add("channel-order", "a set", {{"T_a_ORM.png", {flat(1), patches, bumps}}});
+  add("channel-order", "an image with alpha", {{"T_a_ORM.png", with_alpha({flat(1), patches, bumps})}});
+  add("channel-order", "an asset", {{"x.png", {patches, bumps, flat(0)}}}, kCommand, kRoughTexture);
+  add("specgloss-channels", "a set", {{"a_SpecularGlossiness.png", color}}, kWords);
+  add("sizes", "a set of three sizes",
+      {{"a_BaseColor.png", color, "", bytes, 32},
+       {"a_Roughness.png", {bumps}, "", bytes, 64},
+       {"a_Metallic.png", {patches}, "", bytes, 64, 32}});
+  add("wrong-texture", "a set", {{"a_BaseColor.png", normals(false)}}, kWords);
+  add("metallic-greys", "a set", {{"a_Metallic.png", {bumps}}}, kWords);
+  add("factor-zero", "roughness", {{"x.png", orm}}, kWords,
+      R"("pbrMetallicRoughness":{"roughnessFactor":0,"metallicRoughnessTexture":{"index":0}})");
+  add("factor-ignored", "metallic of 0", {{"x.png", orm}}, kWords, kPlasticTexture, "in/a.gltf --for unity");
+  add("normal-space", "a set", {{"a_Normal.png", {cosine, flat(0.5), sine}}}, kWords);
+  add("normal-orientation", "a set", {{"a_NormalGL.png", normals(true)}});
+  add("normal-orientation", "an image with alpha", {{"a_NormalGL.png", with_alpha(normals(true))}});
+  add("normal-orientation", "a map for a reader", {{"a_Normal.png", normals(false)}}, kCommand, "",
+      "in --for unreal");
+  add("normal-orientation", "an asset", {{"x.png", normals(true)}}, kCommand,
+      R"("normalTexture":{"index":0})");
+  add("specular-color", "a set", {{"a_Specular.png", {metal, metal, metal}}}, kWords);
+  add("constant-map", "a set", {{"a_Roughness.png", {flat(0.5)}}}, kWords);
+  add("banding", "a set", {{"a_Roughness.png", {dark}}}, kWords);
+  add("bad-values", "a set", {{"a_Roughness.exr", {beyond}, "", half}});
+  add("bad-values", "NaN in heights", {{"a_Height.exr", {heights}, "", OIIO::TypeFloat}});
+  add("bad-values", "an asset", {{"x.exr", {[](double x, double) { return 1.5 * x - 0.2; }}, "", half}},
+      kCommand, "", "in/a.mtl", mtl("newmtl m\nKd 1 1 1\nmap_Pr x.exr\n"));
+  add("ior", "an asset", {}, kWords, kPlasticFactor + R"("extensions":{"KHR_materials_ior":{"ior":1000}})");
+  add("ignored-by-reader", "specular-glossiness", {}, kCommand, kGlossFactor, "in/a.gltf --for threejs");
+  add("ignored-by-reader", "two assets of one name", {}, kCommand, kGlossFactor, "in --for threejs", [](S s) {
+    for (const char* name : {"in/b/a.gltf", "in/c/a.gltf"}) s.put(name, s.content("in/a.gltf"));
+  });
+  add("ignored-by-reader", "maps of two sizes", {{"x.png", color}, {"y.png", gloss, "", bytes, 24}}, kCommand,
+      gloss_textures(), "in/a.gltf --for threejs");
+  add("ignored-by-reader", "maps in two places", {{"x.png", color}, {"y.png", gloss}}, kCommand,
+      gloss_textures(kTransform), "in/a.gltf --for threejs");
+  add("ignored-by-reader", "specular and ior", {}, kCommand,
+      kPlasticFactor + kBrightSpecular + R"(,"KHR_materials_ior":{"ior":1.4}})", "in/a.gltf --for godot");
+  add("ignored-by-reader", "materials of all kinds", {{"x.png", color}, {"y.png", gloss, "", bytes, 24}},
+      kCommand, gloss_textures() + "},{" + kPlasticFactor + kBrightSpecular + "}", "in/a.gltf --for gltf");
+  add("ignored-by-reader", "ior of a volume", {}, kWords,
+      kPlasticFactor + R"("extensions":{"KHR_materials_ior":{"ior":1.4},"KHR_materials_volume":{}})",
+      "in/a.gltf --for godot");
+  add("ignored-by-reader", "clearcoat", {}, kWords,
+      R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}})", "in/a.gltf --for godot");
+  add("unreadable-statement", "an asset", {}, kWords, "", "", mtl("newmtl a\nKd .5 .5 .5\nNs shiny\n"));
+  add("exponent-range", "an asset", {}, kWords, "", "",
+      mtl("newmtl m\nKs 1 1 1\nNs 0.5\nnewmtl n\nKs 1 1 1\nNs 0.7\n"));
+  add("duplicate-map", "a set", {{"a_Roughness.png", {bumps}}, {"a_AO.png", {bumps}}}, kWords);
   return all;
 }
 
@@ -363,13 +278,13 @@ TEST_CASE("texremap check: what each rule advises runs, and the rule is silent a
     INFO(fault.rule + ": " + fault.what);
     rules_with_a_fault.insert(fault.rule);
     const AdviceSession session;
-    fault.make(session);
-    const std::vector<nlohmann::json> found = session.findings(fault.rule, fault.checked);
+    fault.write(session);
+    const std::vector<nlohmann::json> found = session.findings(fault.rule, fault.arguments());
     CHECK_FALSE(found.empty());
     std::set<std::string> typed;
     for (const nlohmann::json& finding : found) {
       const std::string fix = finding["fix"], command = finding["command"];
-      CHECK(command.empty() == (fault.help == Help::kWords));
+      CHECK(command.empty() == (fault.help == kWords));
       if (command.empty()) {
         for (const char* word : {"texremap convert", "oiiotool", "DIR", "FOLDER"})
           CHECK(fix.find(word) == std::string::npos);
@@ -381,38 +296,35 @@ TEST_CASE("texremap check: what each rule advises runs, and the rule is silent a
       INFO(command + "\n" + run.errors);
       CHECK(run.exit_code == 0);
     }
-    if (fault.help == Help::kWords) continue;
+    if (fault.help == kWords) continue;
     fs::copy(session.path("fixed"), session.path("in"),
              fs::copy_options::overwrite_existing | fs::copy_options::recursive);
-    CHECK(session.findings(fault.rule, fault.checked).empty());
+    CHECK(session.findings(fault.rule, fault.arguments()).empty());
   }
   for (const Rule& rule : rules()) CHECK(rules_with_a_fault.contains(std::string(rule.name)));
 }
 
 TEST_CASE("texremap convert: what a refusal proposes is what the command lacks", "[slow]") {
   using S = const AdviceSession&;
-  const std::vector<Shape> color = {bumps, opposite, patches};
-  const auto specgloss = [color](S s, int size, const std::string& more) {
-    s.map("in/x.png", color);
-    s.map("in/y.png", {bumps, bumps, bumps, opposite}, "", OIIO::TypeUInt8, size, size);
-    s.gltf(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
-           R"("specularGlossinessTexture":{"index":1)" +
-               more + "}}}",
-           {"x.png", "y.png"});
+  const std::vector<Shape>& color = kAdviceColor;
+  const auto specgloss = [&](S s, int size, const std::string& more) {
+    s.write({"x.png", color});
+    s.write({"y.png", kAdviceGloss, "", OIIO::TypeUInt8, size});
+    s.gltf(gloss_textures(more), {"x.png", "y.png"});
   };
   const std::string asset = "convert in/a.gltf --to gltf -o out", plain_asset = R"("name":"plain")";
   const std::string set = "convert in --from specular --to gltf -o out";
   const std::string one =
       "convert --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out --roughness in/";
-  const auto legacy_set = [color](S s) {
-    s.map("in/a_Diffuse.png", color);
-    s.map("in/a_Specular.png", color);
-    s.map("in/a_Glossiness.png", {opposite});
+  const auto legacy_set = [&](S s) {
+    s.write({"a_Diffuse.png", color});
+    s.write({"a_Specular.png", color});
+    s.write({"a_Glossiness.png", {opposite}});
   };
   const std::vector<Refusal> refusals = {
       {"--resample", asset, asset + " --resample", [=](S s) { specgloss(s, 24, ""); }},
       {"different KHR_texture_transform", asset, asset + " --resample",
-       [=](S s) { specgloss(s, kAdviceSide, R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})"); }},
+       [=](S s) { specgloss(s, kAdviceSide, kTransform); }},
       {"--force", asset, asset + " --force",
        [=](S s) {
          s.gltf(plain_asset);
@@ -420,7 +332,7 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
        }},
       {"before the asset", asset, "convert . in/a.gltf --to gltf -o out",
        [=](S s) {
-         s.map("x.png", color);
+         s.write({"../x.png", color});
          s.gltf(plain_asset, {"../x.png"});
        }},
       {"without --extensions", asset + " --extensions write", asset,
@@ -437,17 +349,21 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
        "convert in --from specular --to specular -o out --output-encoding roughness --layout separate",
        legacy_set},
       {"use --type uint16", one + "a.png --type half", one + "a.png --type uint16",
-       [](S s) { s.map("in/a.png", {bumps}); }},
+       [](S s) {
+         s.write({"a.png", {bumps}});
+       }},
       {"--force", one + "../first/a.png", one + "../first/a.png --force",
        [](S s) {
-         s.map("in/a.png", {bumps});
+         s.write({"a.png", {bumps}});
          require_success(
              s.texremap("convert --from mitsuba/ward --to mitsuba/as --specular 0.04 -o first "
                         "--roughness in/a.png"));
        }},
       {"--recursive", "convert . --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out",
        "convert . --from mitsuba/ward --to mitsuba/as --specular 0.04 -o out --recursive",
-       [](S s) { s.map("in/a_Roughness.png", {bumps}); }},
+       [](S s) {
+         s.write({"a_Roughness.png", {bumps}});
+       }},
       {"--assets", "convert in --from specular --to gltf -o out", "convert in --to gltf -o out --assets",
        [=](S s) { s.gltf(plain_asset); }},
   };
@@ -467,18 +383,8 @@ TEST_CASE("texremap convert: what a refusal proposes is what the command lacks",
 
 TEST_CASE("texremap check: an image that is part of an asset has no command, and no path of a copy") {
   const AdviceSession session;
-  session.map("x.png", normals(true));
-  const std::string bytes = session.content("x.png");
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return k < bytes.size() ? static_cast<unsigned>(static_cast<unsigned char>(bytes[k])) : 0u;
-    };
-    const unsigned bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[bits >> shift & 63u];
-  }
-  for (std::size_t i = 0; i < (3 - bytes.size() % 3) % 3; ++i) text[text.size() - 1 - i] = '=';
+  session.write({"x.png", normals(true)});
+  const std::string text = base64(session.content("in/x.png"));
   session.gltf(R"("normalTexture":{"index":0})", {"data:image/png;base64," + text});
   const std::vector<nlohmann::json> found = session.findings("normal-orientation", "in/a.gltf");
   REQUIRE(found.size() == 1);

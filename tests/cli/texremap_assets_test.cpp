@@ -21,16 +21,19 @@ const std::string kPaintConverted =
     R"("roughnessFactor":0}},{"name":"wood","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":1,)"
     R"("roughnessFactor":0}},{}]})";
 
-class AssetSession : public Session {
- public:
-  void put(const std::string& name, const std::string& content) const { write_file(path(name), content); }
-  std::string content(const std::string& name) const { return read_file(path(name)); }
-};
+// Returns a glTF file of one material, which uses these images.
+std::string textured(const std::string& diffuse, const std::string& specgloss, const std::string& factor) {
+  return R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
+         R"({"diffuseFactor":[)" +
+         factor + R"(,1,1,1],"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}],)" +
+         R"("textures":[{"source":0},{"source":1}],"images":[{"uri":")" + diffuse + R"("},{"uri":")" +
+         specgloss + R"("}]})";
+}
 
 }  // namespace
 
 TEST_CASE("An asset is converted, and its resources are copied", "[assets]") {
-  const AssetSession session;
+  const Session session;
   session.put("in/paint.gltf", kPaint);
   session.put("in/a b.bin", "1234");
   const ProcessResult run = session.texremap("convert in/paint.gltf --to gltf -o out/deep");
@@ -48,21 +51,21 @@ TEST_CASE("An asset is converted, and its resources are copied", "[assets]") {
 }
 
 TEST_CASE("A dry run tells what each material would become", "[assets]") {
-  const AssetSession session;
+  const Session session;
   session.put("paint.gltf", kPaint);
   const ProcessResult run = session.texremap("convert paint.gltf --to gltf -o out --dry-run --json");
   CHECK(run.exit_code == 0);
   CHECK(run.errors.find("material 0 \"paint\": would become base color 1 1 1, metallic 1, roughness 0") !=
         std::string::npos);
   CHECK(run.errors.find("refers to a b.bin, which was not found") != std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(session.path("out")));
+  CHECK_FALSE(session.exists("out"));
   const Json json = parse_json(run.output, "output");
   CHECK(*json.find("state")->text() == "planned");
   CHECK((*json.find("materials")->entries())[1].find("metallic")->number() == 1.0);
 }
 
 TEST_CASE("Other assets go on after a failure", "[assets]") {
-  const AssetSession session;
+  const Session session;
   session.put("a.gltf", "{}");
   session.put("b.gltf", R"({"asset":{"version":"2.0"}, "odd" : 1.50})");
   const ProcessResult run =
@@ -76,15 +79,10 @@ TEST_CASE("Other assets go on after a failure", "[assets]") {
 }
 
 TEST_CASE("Textures of an asset become new files beside the old ones", "[assets][slow]") {
-  const AssetSession session;
-  std::filesystem::create_directories(session.path("in"));
-  session.make("in/d.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  session.make("in/s.png", test_spec(16, 8, {"R", "G", "B", "A"}, OIIO::TypeUInt16), noise);
-  session.put(
-      "in/wood.gltf",
-      R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
-      R"({"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}],)"
-      R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"d.png"},{"uri":"s.png"}]})");
+  const Session session;
+  session.map("in/d.png", kColor);
+  session.map("in/s.png", kWithAlpha, OIIO::TypeUInt16);
+  session.put("in/wood.gltf", textured("d.png", "s.png", "1"));
   const ProcessResult run = session.texremap("convert in/wood.gltf --to gltf -o out --json");
   CHECK(run.exit_code == 0);
   CHECK(run.errors.find("1 material converted in ") != std::string::npos);
@@ -109,20 +107,10 @@ TEST_CASE("Textures of an asset become new files beside the old ones", "[assets]
 
 namespace {
 
-// Returns a glTF file of one material, which uses these images.
-std::string textured(const std::string& diffuse, const std::string& specgloss, const std::string& factor) {
-  return R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
-         R"({"diffuseFactor":[)" +
-         factor + R"(,1,1,1],"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}],)" +
-         R"("textures":[{"source":0},{"source":1}],"images":[{"uri":")" + diffuse + R"("},{"uri":")" +
-         specgloss + R"("}]})";
-}
-
 // Writes two assets that share images of another folder, an asset whose image is missing, and a plain asset.
-void put_library(const AssetSession& session) {
-  std::filesystem::create_directories(session.path("lib/maps"));
-  session.make("lib/maps/d.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  session.make("lib/maps/s.png", test_spec(16, 8, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+void put_library(const Session& session) {
+  session.map("lib/maps/d.png", kColor);
+  session.map("lib/maps/s.png", kWithAlpha);
   session.put("lib/chairs/a b.gltf", textured("../maps/d.png", "../maps/s.png", "1"));
   session.put("lib/chairs/c.gltf", textured("../maps/d.png", "../maps/s.png", "0.5"));
   session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}, "odd" : 1.50})");
@@ -131,14 +119,14 @@ void put_library(const AssetSession& session) {
 }  // namespace
 
 TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended", "[assets][slow]") {
-  const AssetSession session;
+  const Session session;
   put_library(session);
   session.put("lib/broken.gltf", textured("maps/none.png", "maps/s.png", "1"));
   const std::string command = "convert lib --assets --recursive --to gltf -o out";
   const ProcessResult dry = session.texremap(command + " --dry-run --json");
   CHECK(dry.exit_code == 1);
   CHECK_THAT(dry.errors, Contains("material 0: would become base color map times"));
-  CHECK_FALSE(std::filesystem::exists(session.path("out")));
+  CHECK_FALSE(session.exists("out"));
 
   const ProcessResult run = session.texremap(command + " --json");
   CHECK(run.exit_code == 1);
@@ -146,16 +134,16 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
   CHECK_THAT(run.output,
              Contains(R"({"summary":{)") && Contains(R"("done_before":0)") && Contains(R"("converted":3)"));
   CHECK(session.content("out/plain.gltf") == session.content("lib/plain.gltf"));
-  CHECK_FALSE(std::filesystem::exists(session.path("out/maps/d.png")));  // nothing uses this image any more
+  CHECK_FALSE(session.exists("out/maps/d.png"));  // nothing uses this image any more
   // Without a prefix, both assets would add maps/d_baseColor.png, with different content.
   CHECK_THAT(session.content("out/chairs/a b.gltf"), Contains(R"("uri":"../maps/a%20b_d_baseColor.png")"));
-  CHECK(std::filesystem::exists(session.path("out/maps/a b_d_baseColor.png")));
-  CHECK(std::filesystem::exists(session.path("out/maps/c_d_baseColor.png")));
+  CHECK(session.exists("out/maps/a b_d_baseColor.png"));
+  CHECK(session.exists("out/maps/c_d_baseColor.png"));
 
   const std::string whole = session.content("out/chairs/c.gltf");
   session.put("out/chairs/c.gltf", "damaged");
   session.put("lib/plain.gltf", R"({"asset":{"version":"2.0"}})");
-  session.make("lib/maps/none.png", test_spec(16, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  session.map("lib/maps/none.png", kColor);
   const ProcessResult resumed = session.texremap(command);
   CHECK(resumed.exit_code == 0);
   CHECK_THAT(resumed.errors, Contains("3 assets converted in ") && Contains(" s, 0 failed, 1 done before"));
@@ -172,15 +160,15 @@ TEST_CASE("A folder of assets is converted as a tree, and goes on where it ended
 }
 
 TEST_CASE("Assets read what lies below their root", "[assets][slow]") {
-  const AssetSession session;
+  const Session session;
   put_library(session);
   CHECK(session.texremap("convert lib lib/chairs/c.gltf --to gltf -o out").exit_code == 0);
-  CHECK(std::filesystem::exists(session.path("out/chairs/c.gltf")));
-  CHECK(std::filesystem::exists(session.path("out/maps/d_baseColor.png")));
+  CHECK(session.exists("out/chairs/c.gltf"));
+  CHECK(session.exists("out/maps/d_baseColor.png"));
 }
 
 TEST_CASE("Materials go to spec-gloss and back", "[assets]") {
-  const AssetSession session;
+  const Session session;
   session.put("a.gltf",
               R"({"asset":{"version":"2.0"}, "materials":[{"pbrMetallicRoughness":{"baseColorFactor":)"
               R"([1.0,0.77,0.34,1],"metallicFactor":1,"roughnessFactor":0.25}}]})");
@@ -196,7 +184,7 @@ TEST_CASE("Materials go to spec-gloss and back", "[assets]") {
 }
 
 TEST_CASE("MTL files keep their other lines, and OBJ files become glTF", "[assets]") {
-  const AssetSession session;
+  const Session session;
   session.put("o/a.mtl", "# by hand\r\nnewmtl paint\r\nNs 96.08\r\nKs .5 .5 .5\r\nKd .64 .64 .64\r\n");
   session.put("o/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
   CHECK(session.texremap("convert o/a.mtl --to gltf -o m").exit_code == 0);
@@ -204,8 +192,8 @@ TEST_CASE("MTL files keep their other lines, and OBJ files become glTF", "[asset
              Catch::Matchers::StartsWith("# by hand\r\nnewmtl paint\r\nNs 96.08\r\nKs .5 .5 .5\r\n") &&
                  Contains("\r\nPr ") && Contains("\r\nPm 0\r\n"));
   CHECK(session.texremap("convert o --assets --to gltf --format gltf -o g").exit_code == 0);
-  CHECK(std::filesystem::exists(session.path("g/a.gltf")));
-  CHECK(std::filesystem::exists(session.path("g/a.bin")));
+  CHECK(session.exists("g/a.gltf"));
+  CHECK(session.exists("g/a.bin"));
   CHECK_THAT(session.texremap("convert o --assets --to gltf --format gltf -o g").errors,
              Contains("1 done before"));
   CHECK(session.texremap("convert o/a.obj --to gltf -o a.glb").exit_code == 0);
@@ -213,10 +201,10 @@ TEST_CASE("MTL files keep their other lines, and OBJ files become glTF", "[asset
 }
 
 TEST_CASE("A folder of sets leaves out its assets", "[assets][slow]") {
-  const AssetSession session;
+  const Session session;
   put_library(session);
-  session.make("lib/w_diffuse.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
-  session.make("lib/w_specularGlossiness.png", test_spec(4, 4, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
+  session.map("lib/w_diffuse.png", kColor);
+  session.map("lib/w_specularGlossiness.png", kWithAlpha);
   CHECK_THAT(require_success(session.texremap("convert lib --to gltf -o out")).errors,
              Contains("1 asset skipped"));
 }
@@ -225,7 +213,7 @@ TEST_CASE("A folder of sets leaves out its assets", "[assets][slow]") {
 TEST_CASE("Public assets are converted whole", "[assets][slow][needs]") {
   const std::filesystem::path folder = shared_data("assets");
   if (folder.empty()) return;
-  const AssetSession session;
+  const Session session;
   for (const char* name :
        {"box_specgloss/BoxTextured.gltf", "made/nut_specgloss.glb", "made/nut_shared_factors.glb",
         "made/nut_specgloss_webp.glb", "made/boombox_specgloss.glb"}) {

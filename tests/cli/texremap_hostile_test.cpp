@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/texremap_tree.hpp"
+#include "cli/texremap_session.hpp"
 #include "core/json.hpp"
 #include "core/owner_tag.hpp"
 
@@ -16,42 +16,36 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const Words kOfTree = Words("convert in --from mitsuba/ward --to mitsuba/ggx --specular 0.04 --quiet -o out");
+const Words kToGgx = "--from mitsuba/ward --to mitsuba/ggx --specular 0.04";
+const Words kOfTree = "convert in" + kToGgx + "--quiet -o out";
 const std::string kSpecGloss =
-    R"("extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],"materials":[{"extensions":)"
-    R"({"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}}}])";
+    R"("materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5}}}])";
 
-class HostileFolder : public Tree {
+class HostileFolder : public Session {
  public:
-  void put(const std::string& name, const std::string& content) const { write_file(path(name), content); }
-  std::string content(const std::string& name) const { return read_file(path(name)); }
   // Writes an asset that uses a file as its buffer.
   void put_asset(const std::string& name, const std::string& part) const {
     put(name, R"({"asset":{"version":"2.0"},"buffers":[{"uri":")" + part + R"(","byteLength":4}],)" +
                   kSpecGloss + "}");
   }
   void put_textured(const std::string& name, const std::string& image) const {
-    put(name,
-        R"({"asset":{"version":"2.0"},"images":[{"uri":")" + image +
-            R"("}],"textures":[{"source":0}],)"
-            R"("extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],"materials":[{"extensions":)"
-            R"({"KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":0.5,"specularFactor":[0.3,0.2,0.1],)"
-            R"("diffuseTexture":{"index":0}}}}]})");
+    put(name, R"({"asset":{"version":"2.0"},"images":[{"uri":")" + image +
+                  R"("}],"textures":[{"source":0}],"materials":[{"extensions":)"
+                  R"({"KHR_materials_pbrSpecularGlossiness":{"specularFactor":[0.3,0.2,0.1],)"
+                  R"("diffuseTexture":{"index":0}}}}]})");
   }
   void link(const fs::path& to, const std::string& name) const {
     fs::create_directories(fs::path(path(name)).parent_path());
     fs::create_symlink(to, path(name));
   }
-  // Edits the manifest and corrects its hash. Anybody can do this, because the hash has no key.
-  void change_manifest(const std::string& from, const std::string& to) const;
+  // Edits the manifest. Anybody can do this, because its hash has no key.
+  void change_manifest(const std::string& from, const std::string& to) const {
+    std::string text = content("m.jsonl");
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+    put("m.jsonl", text);
+  }
 };
-
-void HostileFolder::change_manifest(const std::string& from, const std::string& to) const {
-  std::string text = content("m.jsonl");
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  put("m.jsonl", text);
-}
 
 mode_t mode_of(const fs::path& file) {
   struct stat found {};
@@ -115,32 +109,21 @@ TEST_CASE("texremap hostile: an asset is never the part of another one, nor is w
                                   "and from in/b.gltf") &&
                              Contains("has a name that texremap uses for its own files (rename it)"));
   CHECK_THAT(folder.content("out/b.gltf"), Contains("pbrMetallicRoughness"));
-  CHECK_FALSE(fs::exists(folder.path("out/z.gltf")));
+  CHECK_FALSE(folder.exists("out/z.gltf"));
   CHECK(folder.content("out/.texremap.jsonl").starts_with("{\"conversion\""));
 }
 
 TEST_CASE("texremap hostile: of two sets that differ in case alone the second is refused") {
   const HostileFolder folder;
-  folder.map("in/Rock_roughness.png", kGrey);
-  folder.map("in/rock_roughness.png", kGrey);
-  folder.map(
-      "in/\xc3\x84"
-      "bc_roughness.png",
-      kGrey);  // these are Ä and ä
-  folder.map(
-      "in/\xc3\xa4"
-      "bc_roughness.png",
-      kGrey);
+  const std::string large = "\xc3\x84", small = "\xc3\xa4";  // Ä and ä
+  for (const std::string& name : {std::string("Rock"), std::string("rock"), large, small})
+    folder.map("in/" + name + "_roughness.png", kGrey);
   const ProcessResult run = folder.texremap(kOfTree);
   CHECK(run.exit_code == 1);
-  CHECK_THAT(run.errors,
-             Contains("would be written twice, from the set of in/Rock_roughness.png and from the set of "
-                      "in/rock_roughness.png"));
-  CHECK(folder.results() == std::vector<std::string>{"Rock_roughness.png", "Rock_specular.png",
-                                                     "\xc3\x84"
-                                                     "bc_roughness.png",
-                                                     "\xc3\x84"
-                                                     "bc_specular.png"});
+  CHECK_THAT(run.errors, Contains("would be written twice, from the set of in/Rock_roughness.png and from "
+                                  "the set of in/rock_roughness.png"));
+  CHECK(folder.results() ==
+        Names{"Rock_roughness.png", "Rock_specular.png", large + "_roughness.png", large + "_specular.png"});
   CHECK_THAT(folder.texremap("index in -o m.jsonl").errors,
              Contains("(rename one of the sets; A and a are the same letter here"));
 }
@@ -152,7 +135,7 @@ TEST_CASE("texremap hostile: links that others planted in the output folder are 
   folder.link("../rc", "out/.texremap.jsonl");
   CHECK_THAT(folder.texremap(kOfTree).last_error(), Contains("out/.texremap.jsonl: is a link, belongs to"));
   CHECK(folder.content("rc") == "alias ll=ls\n");
-  CHECK_FALSE(fs::exists(folder.path("out/x_roughness.png")));
+  CHECK_FALSE(folder.exists("out/x_roughness.png"));
 
   fs::remove(folder.path("out/.texremap.jsonl"));
   fs::create_directory(folder.path("elsewhere"));
@@ -175,11 +158,8 @@ TEST_CASE("texremap hostile: names of unfinished files cannot be known before th
   CHECK(unfinished_name(folder.path(longest)).filename().string().size() == 255);
   folder.put(longest, "x");
   CHECK(folder.content(longest) == "x");
-  const std::string umlauts = [] {
-    std::string text;
-    for (int i = 0; i < 120; ++i) text += "\xc3\xa4";
-    return text + ".txt";
-  }();
+  std::string umlauts = ".txt";
+  for (int i = 0; i < 120; ++i) umlauts = "\xc3\xa4" + umlauts;
   CHECK(is_utf8(unfinished_name(folder.path(umlauts)).filename().string()));
 }
 
@@ -194,17 +174,18 @@ TEST_CASE("texremap hostile: a manifest leads nowhere else") {
         "convert --manifest m.jsonl --part 1/1 --from mitsuba/ward --to mitsuba/ggx --specular 0.04 --quiet "
         "-o deep/out");
     CHECK(run.exit_code == 1);
-    CHECK_FALSE(fs::exists(folder.path("deep")));
+    CHECK_FALSE(folder.exists("deep"));
     return run.last_error();
   };
-  CHECK(refusal(R"("folder":"")", R"("folder":"../other")") ==
-        "texremap: m.jsonl: line 2: \"../other\" leads out of its folder (run texremap index again)");
-  CHECK(refusal(R"("folder":"")", R"("folder":"/etc")") ==
-        "texremap: m.jsonl: line 2: \"/etc\" is an absolute path (run texremap index again)");
-  CHECK(refusal(R"("name":"x")", R"("name":"x/y")") ==
-        "texremap: m.jsonl: line 2: \"x/y\" is not a name (run texremap index again)");
-  CHECK(refusal(R"("name":"x")", R"("name":"x\ny")") ==
-        "texremap: m.jsonl: line 2: \"x\\x0ay\" has control characters (run texremap index again)");
+  const auto check = [&](const std::string& field, const std::string& value, const std::string& message) {
+    CHECK(refusal("\"" + field + "\":\"" + (field == "name" ? "x" : "") + "\"",
+                  "\"" + field + "\":\"" + value + "\"") ==
+          "texremap: m.jsonl: line 2: " + message + " (run texremap index again)");
+  };
+  check("folder", "../other", "\"../other\" leads out of its folder");
+  check("folder", "/etc", "\"/etc\" is an absolute path");
+  check("name", "x/y", "\"x/y\" is not a name");
+  check("name", "x\\ny", "\"x\\x0ay\" has control characters");
   folder.put_asset("as/a.gltf", "a.bin");
   REQUIRE(folder.texremap("index as --assets -o m.jsonl --quiet --force").exit_code == 0);
   folder.change_manifest(R"("a.gltf")", "\"" + folder.path("as/a.gltf") + "\"");
@@ -224,7 +205,7 @@ TEST_CASE("texremap hostile: links out of the folder of the inputs are read when
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.errors, Contains("in/payload.bin: is a link that leads out of") &&
                              Contains("(--follow-links reads it)"));
-  CHECK_FALSE(fs::exists(folder.path("out/payload.bin")));
+  CHECK_FALSE(folder.exists("out/payload.bin"));
   CHECK(folder.content("out/tex/p.bin") == "5678");  // the link stays inside the folder
   CHECK(folder.texremap("convert in/a.gltf --to gltf -o one").exit_code == 1);
   CHECK(folder.texremap("convert in/a.gltf --to gltf -o one --follow-links").exit_code == 0);
@@ -234,7 +215,7 @@ TEST_CASE("texremap hostile: links out of the folder of the inputs are read when
   folder.link("../secret", "sets/x_normal.png");
   CHECK(folder.texremap("convert sets --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o copies")
             .exit_code == 1);
-  CHECK_FALSE(fs::exists(folder.path("copies/x_normal.png")));
+  CHECK_FALSE(folder.exists("copies/x_normal.png"));
 }
 
 TEST_CASE("texremap hostile: pipes and files without end in the place of its files end nothing") {

@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kLayoutSize = 48;
+constexpr int kLayoutSize = kMapSize;
 
 ProcessResult convert(const Session& session, const std::string& from, const std::string& to, Words words,
                       const std::string& folder) {
@@ -36,7 +36,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const OIIO::TypeDesc type = extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8;
   const auto named = [&](const std::string& name) { return name + "." + extension; };
-  session.make(named("in"), test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type), noise);
+  session.map(named("in"), kColor, type);
   Words words = packed(named("in"));
   words += "--layout separate";
   require_success(convert(session, "mitsuba/ward", "mitsuba/as", words, "apart"));
@@ -65,7 +65,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]
 
 TEST_CASE("texremap layouts: missing maps give a warning") {
   const Session session;
-  session.make("r.png", test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8), noise);
+  session.map("r.png", kGrey);
   const ProcessResult result = require_success(
       convert(session, "mitsuba/ward", "mitsuba/as", "--roughness r.png --specular 0.4 --layout orm", "out"));
   CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
@@ -76,21 +76,12 @@ TEST_CASE("texremap layouts: missing maps give a warning") {
 
 namespace {
 
-// Returns the values of a metallic set. The tests below write it in the arrangement of a tool (`preset`).
-float metallic_value(int x, int y) { return noise(x, y, 0); }
-float width_value(int x, int y) { return noise(x, y, 1); }
-float occlusion_value(int x, int y) { return noise(x, y, 2); }
-float base_value(int x, int y, int c) { return noise(x, y, 3 + c); }
+// The tests below write this metallic set in the arrangement of a tool (`preset`).
+const std::string kOrmFile = "in/wood_occlusionRoughnessMetallic.png";
 
 void write_orm_set(const Session& session) {
-  const OIIO::TypeDesc type = OIIO::TypeUInt8;
-  std::filesystem::create_directory(session.path("in"));
-  session.make("in/wood_occlusionRoughnessMetallic.png",
-               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type), [](int x, int y, int c) {
-                 return c == 0 ? occlusion_value(x, y) : c == 1 ? width_value(x, y) : metallic_value(x, y);
-               });
-  session.make("in/wood_baseColor.png", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, type),
-               base_value);
+  session.map("in/wood_occlusionRoughnessMetallic.png", kColor);
+  session.map("in/wood_baseColor.png", kColor, [](int x, int y, int c) { return noise(x, y, 3 + c); });
 }
 
 std::vector<float> complement(std::vector<float> values) {
@@ -110,29 +101,15 @@ struct Arrangement {
   Expected metallic, occlusion;
   std::string base_color;
 };
+const std::string kOrm = "wood_occlusionRoughnessMetallic", kUnity = "wood_MetallicSmoothness";
 const std::vector<Arrangement> kArrangements = {
-    {"gltf",
-     {"wood_occlusionRoughnessMetallic", 1},
-     false,
-     {"wood_occlusionRoughnessMetallic", 2},
-     {"wood_occlusionRoughnessMetallic", 0},
-     "wood_baseColor"},
-    {"unity",
-     {"wood_MetallicSmoothness", 3},
-     true,
-     {"wood_MetallicSmoothness", 0},
-     {"wood_Occlusion", 0},
-     "wood_BaseMap"},
+    {"gltf", {kOrm, 1}, false, {kOrm, 2}, {kOrm, 0}, "wood_baseColor"},
+    {"unity", {kUnity, 3}, true, {kUnity, 0}, {"wood_Occlusion", 0}, "wood_BaseMap"},
     {"unity-hdrp", {"wood_MaskMap", 3}, true, {"wood_MaskMap", 0}, {"wood_MaskMap", 1}, "wood_BaseMap"},
     {"unreal", {"T_wood_ORM", 1}, false, {"T_wood_ORM", 2}, {"T_wood_ORM", 0}, "T_wood_BC"},
     {"godot", {"wood_orm", 1}, false, {"wood_orm", 2}, {"wood_orm", 0}, "wood_albedo"},
-    {"usd", {"wood_roughness", 0}, false, {"wood_metallic", 0}, {"wood_occlusion", 0}, "wood_base_color"},
-    {"marmoset",
-     {"wood_roughness", 0},
-     false,
-     {"wood_metallic", 0},
-     {"wood_occlusion", 0},
-     "wood_base_color"}};
+    {"usd", {"wood_roughness"}, false, {"wood_metallic"}, {"wood_occlusion"}, "wood_base_color"},
+    {"marmoset", {"wood_roughness"}, false, {"wood_metallic"}, {"wood_occlusion"}, "wood_base_color"}};
 
 }  // namespace
 
@@ -148,10 +125,9 @@ TEST_CASE("texremap layouts: the same material is arranged again, and no stored 
       return channel(session, out + "/" + place.file + ".png", place.channel);
     };
     const std::vector<float> width = held(to.roughness);
-    CHECK((to.is_smooth ? complement(width) : width) ==
-          channel(session, "in/wood_occlusionRoughnessMetallic.png", 1));
-    CHECK(held(to.metallic) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 2));
-    CHECK(held(to.occlusion) == channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
+    CHECK((to.is_smooth ? complement(width) : width) == channel(session, kOrmFile, 1));
+    CHECK(held(to.metallic) == channel(session, kOrmFile, 2));
+    CHECK(held(to.occlusion) == channel(session, kOrmFile, 0));
     // A file whose content does not change is copied byte for byte.
     CHECK(session.content(out + "/" + to.base_color + ".png") == session.content("in/wood_baseColor.png"));
     // texremap recognises the names that it wrote.
@@ -159,27 +135,22 @@ TEST_CASE("texremap layouts: the same material is arranged again, and no stored 
     const std::string set = back + (to.engine == "unreal" ? "/T_wood" : "/wood");
     CHECK(session.content(set + "_baseColor.png") == session.content("in/wood_baseColor.png"));
     for (int c = 0; c < 3; ++c)
-      CHECK(channel(session, set + "_occlusionRoughnessMetallic.png", c) ==
-            channel(session, "in/wood_occlusionRoughnessMetallic.png", c));
+      CHECK(channel(session, set + "_occlusionRoughnessMetallic.png", c) == channel(session, kOrmFile, c));
   }
 }
 
 TEST_CASE("texremap layouts: in words, with a constant, and a channel without a role that is named") {
   const Session session;
   write_orm_set(session);
-  session.make("in/stone_MaskMap.png",
-               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8), noise);
-  session.make("in/stone_BaseMap.png", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
-               noise);
-  const ProcessResult result = require_success(session.texremap(
-      Words("convert in --from unity --to gltf -o out --layout") +
-      Words(std::vector<std::string>{"Packed=smoothness,1,metallic,occlusion; *_c=base_color"})));
+  session.map("in/stone_MaskMap.png", kWithAlpha);
+  session.map("in/stone_BaseMap.png", kColor);
+  const ProcessResult result = require_success(
+      session.texremap(Words("convert in --from unity --to gltf -o out --layout") +
+                       Words(Names{"Packed=smoothness,1,metallic,occlusion; *_c=base_color"})));
   CHECK_THAT(result.errors, Contains("stone_MaskMap.png: channel B is not used and is skipped"));
-  CHECK(channel(session, "out/wood_Packed.png", 0) ==
-        complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
+  CHECK(channel(session, "out/wood_Packed.png", 0) == complement(channel(session, kOrmFile, 1)));
   CHECK(channel(session, "out/wood_Packed.png", 1) == std::vector<float>(kLayoutSize * kLayoutSize, 1.0f));
-  CHECK(channel(session, "out/wood_Packed.png", 3) ==
-        channel(session, "in/wood_occlusionRoughnessMetallic.png", 0));
+  CHECK(channel(session, "out/wood_Packed.png", 3) == channel(session, kOrmFile, 0));
   CHECK(channel(session, "out/stone_Packed.png", 0) == channel(session, "in/stone_MaskMap.png", 3));
   CHECK(session.content("out/stone_c.png") == session.content("in/stone_BaseMap.png"));
 }
@@ -187,9 +158,7 @@ TEST_CASE("texremap layouts: in words, with a constant, and a channel without a 
 TEST_CASE("texremap: every file of a folder that takes no part is named") {
   const Session session;
   write_orm_set(session);
-  const OIIO::ImageSpec spec = test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8);
-  session.make("in/wood_normal.png", spec, noise);
-  session.make("in/preview of wood.png", spec, noise);
+  for (const char* name : {"in/wood_normal.png", "in/preview of wood.png"}) session.map(name, kColor);
   const Words words = "convert in --from gltf --to cycles-5/principled -o out";
   const std::string unknown = "not recognised: in/preview of wood.png";
   const ProcessResult planned = require_success(session.texremap(words + "--dry-run"));
@@ -209,9 +178,8 @@ TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is
   CHECK_THAT(told.errors, Contains("texremap uses --from metallic, detected from the maps of wood"));
   CHECK(session.content("out/wood_occlusionRoughnessMetallic.png") ==
         session.content("in/wood_occlusionRoughnessMetallic.png"));
-  const OIIO::ImageSpec spec = test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8);
   for (const char* word : {"Diffuse", "Specular", "Glossiness"})
-    session.make("in/chair_" + std::string(word) + ".png", spec, noise);
+    session.map("in/chair_" + std::string(word) + ".png", kColor);
   const ProcessResult differ = session.texremap("convert in --to gltf -o out2");
   CHECK(differ.exit_code == 2);
   CHECK_THAT(differ.errors, Contains("--from is required, because the sets differ: chair uses the model "
@@ -221,9 +189,8 @@ TEST_CASE("texremap: the maps of a folder tell the source, and what was taken is
 TEST_CASE("texremap: of several maps of one parameter, one is taken and named, or --prefer chooses") {
   const Session session;
   write_orm_set(session);
-  const OIIO::ImageSpec grey = test_spec(kLayoutSize, kLayoutSize, {"Y"}, OIIO::TypeUInt8);
-  session.make("in/wood_rough.png", grey, noise);
-  session.make("in/wood_Gloss.png", grey, [](int x, int y, int) { return noise(x, y, 7); });
+  session.map("in/wood_rough.png", kGrey);
+  session.map("in/wood_Gloss.png", kGrey, [](int x, int y, int) { return noise(x, y, 7); });
   const Words words = "convert in --to gltf --layout unity -o ";
   const auto smoothness = [&](const Words& more, const std::string& folder) {
     const ProcessResult result = require_success(session.texremap(words + folder + more));
@@ -232,17 +199,15 @@ TEST_CASE("texremap: of several maps of one parameter, one is taken and named, o
   };
   CHECK(smoothness({}, "a") == complement(channel(session, "in/wood_rough.png", 0)));
   CHECK(smoothness("--prefer gloss", "b") == channel(session, "in/wood_Gloss.png", 0));
-  CHECK(smoothness("--prefer occlusionroughnessmetallic", "c") ==
-        complement(channel(session, "in/wood_occlusionRoughnessMetallic.png", 1)));
+  CHECK(smoothness("--prefer occlusionroughnessmetallic", "c") == complement(channel(session, kOrmFile, 1)));
 }
 
 TEST_CASE("texremap: maps of a folder are found by a name with * for the name of the set") {
   const Session session;
   write_orm_set(session);
-  const OIIO::ImageSpec spec = test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8);
-  session.make("in/wood_mine.png", spec, noise);
+  session.map("in/wood_mine.png", kColor);
   const Words words = Words("convert in --to gltf --layout unity -o out --roughness") +
-                      Words(std::vector<std::string>{"*_mine.png:B", "--input", "occlusion=*_mine.png:R"});
+                      Words(Names{"*_mine.png:B", "--input", "occlusion=*_mine.png:R"});
   require_success(session.texremap(words));
   CHECK(channel(session, "out/wood_MetallicSmoothness.png", 3) ==
         complement(channel(session, "in/wood_mine.png", 2)));
@@ -254,11 +219,7 @@ TEST_CASE("texremap: maps of a folder are found by a name with * for the name of
 
 TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter") {
   const Session session;
-  std::filesystem::create_directory(session.path("in"));
-  session.make("in/wood_maps.exr",
-               test_spec(kLayoutSize, kLayoutSize, {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"},
-                         OIIO::TypeHalf),
-               noise);
+  session.map("in/wood_maps.exr", {"rough.Y", "metal.Y", "base.R", "base.G", "base.B"}, OIIO::TypeHalf);
   const std::string all =
       "convert --from gltf --to gltf --roughness in/wood_maps.exr --metallic in/wood_maps.exr "
       "--base-color in/wood_maps.exr --layout separate";
@@ -286,16 +247,12 @@ TEST_CASE("texremap: layers of an EXR by their names, factors of every parameter
 TEST_CASE("texremap: WebP is read, and written as PNG", "[needs]") {
   const Session session;
   if (OIIO::ImageOutput::create("x.webp") == nullptr) return skip("webp", "OpenImageIO writes no WebP");
-  std::filesystem::create_directory(session.path("web"));
-  session.make("web/wood_Roughness.webp",
-               test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B"}, OIIO::TypeUInt8),
-               [](int x, int y, int) { return noise(x, y, 1); });
+  session.map("web/wood_Roughness.webp", kColor, [](int x, int y, int) { return noise(x, y, 1); });
   require_success(
       session.texremap("convert web --from mitsuba/ward --to mitsuba/as --specular 0.04 --quiet -o webout"));
   CHECK(session.image("webout/wood_Roughness.png").spec.width == kLayoutSize);
   // OpenImageIO multiplies colors by alpha, and 8 bits lose too much to undo this.
-  session.make("half.webp", test_spec(kLayoutSize, kLayoutSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
-               [](int x, int y, int c) { return c == 3 ? 0.5f : noise(x, y, c); });
+  session.map("half.webp", kWithAlpha, [](int x, int y, int c) { return c == 3 ? 0.5f : noise(x, y, c); });
   const ProcessResult spoiled = session.texremap(
       "convert --from mitsuba/ward --to mitsuba/as --roughness 0.3 --specular half.webp -o halfout");
   CHECK(spoiled.exit_code == 1);

@@ -8,9 +8,8 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "cli/texremap_tree.hpp"
+#include "cli/texremap_session.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -18,12 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void write_sets(const Tree& tree, int count, const std::string& extension, int size = kTreeMapSize) {
-  for (int i = 0; i < count; ++i) {
-    const std::string name = "in/s" + std::to_string(i);
-    tree.map(name + "_rough." + extension, kGrey, OIIO::TypeUInt8, size);
-    tree.map(name + "_spec." + extension, kColor, OIIO::TypeUInt8, size);
-  }
+void write_sets(const Session& tree, int count, const std::string& extension, int size = kMapSize) {
+  for (int i = 0; i < count; ++i)
+    tree.write_set("in/s" + std::to_string(i), extension, OIIO::TypeUInt8, size);
 }
 
 Words command(const std::string& target, const Words& more = {}) {
@@ -31,7 +27,7 @@ Words command(const std::string& target, const Words& more = {}) {
 }
 
 // Returns the states of the sets in a resumed run, or its messages if it has no sets.
-std::string states(const Tree& tree, const Words& more, const std::string& target = "mitsuba/as") {
+std::string states(const Session& tree, const Words& more, const std::string& target = "mitsuba/as") {
   const ProcessResult result = tree.texremap(command(target, "--json" + more));
   INFO(result.errors);
   const std::string letters = set_states(result.output);
@@ -54,15 +50,14 @@ void write_other_converters(const std::string& path, double scale) {
 }  // namespace
 
 TEST_CASE("texremap nights: sets whose names hold control characters are resumed") {
-  const Tree tree;
-  tree.map("in/a\tb_rough.png", kGrey);
-  tree.map("in/a\tb_spec.png", kColor);
+  const Session tree;
+  tree.write_set("in/a\tb", "png");
   CHECK(states(tree, {}) == "c");
   CHECK(states(tree, {}) == "d");
 }
 
 TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own", "[slow]") {
-  const Tree tree;
+  const Session tree;
   for (const std::string name : {"wood", "deep/wall"}) {
     tree.map("in/" + name + "_diffuse.png", kColor);
     tree.map("in/" + name + "_specular.png", kColor);
@@ -99,7 +94,7 @@ TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their o
 }
 
 TEST_CASE("texremap nights: another converter of the same name is another conversion", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_sets(tree, 1, "png");
   write_other_converters(tree.path("c1.json"), 1.0);
   write_other_converters(tree.path("c2.json"), 0.5);
@@ -118,7 +113,7 @@ TEST_CASE("texremap nights: another converter of the same name is another conver
 }
 
 TEST_CASE("texremap nights: --force makes another conversion in a folder") {
-  const Tree tree;
+  const Session tree;
   write_sets(tree, 1, "png");
   CHECK(states(tree, {}) == "c");
   CHECK(states(tree, {"--force"}, "mitsuba/ggx") == "c");
@@ -126,7 +121,7 @@ TEST_CASE("texremap nights: --force makes another conversion in a folder") {
 }
 
 TEST_CASE("texremap nights: maps without metadata are not converted twice", "[slow]") {
-  const Tree tree;
+  const Session tree;
   const std::string extension = GENERATE("tga", "bmp");
   write_sets(tree, 1, extension);
   // The path of the folder may be written in different ways.
@@ -146,15 +141,13 @@ TEST_CASE("texremap nights: maps without metadata are not converted twice", "[sl
   CHECK_THAT(single.last_error(), Contains("already converted to mitsuba/as"));
   // If a new file of the same name replaces it, it may be converted.
   write_sets(tree, 1, extension);
-  fs::copy_file(tree.path("in/s0_rough." + extension), tree.path("out/s0_rough." + extension),
-                fs::copy_options::overwrite_existing);
-  fs::copy_file(tree.path("in/s0_spec." + extension), tree.path("out/s0_spec." + extension),
-                fs::copy_options::overwrite_existing);
+  fs::copy(tree.path("in"), tree.path("out"),
+           fs::copy_options::overwrite_existing | fs::copy_options::recursive);
   CHECK(tree.texremap(again).exit_code == 0);
 }
 
 TEST_CASE("texremap nights: the exit code is 1 if every set is skipped, and 0 if some are converted") {
-  const Tree tree;
+  const Session tree;
   for (const char* map : {"Diffuse", "Reflection", "ReflectionGlossiness"})
     tree.map(std::string("in/deep/Robot_") + map + ".png", kColor);
   const Words words = command("mitsuba/as", "--recursive");
@@ -169,7 +162,7 @@ TEST_CASE("texremap nights: the exit code is 1 if every set is skipped, and 0 if
 }
 
 TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_sets(tree, 60, "png", 256);
   const std::string text = tree.path("lines.txt"), json = tree.path("lines.json");
   write_file(json, "");
@@ -184,10 +177,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
     ::_exit(9);
   }
   // The run is killed when the tenth line has appeared.
-  const auto lines = [](const std::string& path) {
-    const std::string content = read_file(path);
-    return std::count(content.begin(), content.end(), '\n');
-  };
+  const auto lines = [](const std::string& path) { return count_of(read_file(path), "\n"); };
   while (lines(json) < 10 && ::waitpid(child, nullptr, WNOHANG) == 0)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   ::kill(child, SIGKILL);
@@ -210,7 +200,7 @@ TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
 }
 
 TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
-  const Tree tree;
+  const Session tree;
   const int count = 40;
   write_sets(tree, count, "png", 32);
   const auto run_both = [&](const Words& a, const Words& b) {
@@ -220,29 +210,24 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
     other.join();
     return results;
   };
-  const auto content = [&] {
-    std::map<std::string, std::string> files;
-    for (const std::string& name : tree.results()) files[name] = tree.content("out/" + name);
-    return files;
-  };
   std::map<std::string, std::map<std::string, std::string>> alone;
   for (const std::string target : {"mitsuba/as", "mitsuba/ggx"}) {
     fs::remove_all(tree.path("out"));
     require_success(tree.texremap(command(target)));
-    alone[target] = content();
+    alone[target] = tree.contents();
   }
   for (int round = 0; round < 5; ++round) {
     // Two runs of the same conversion succeed, with complete and equal results.
     fs::remove_all(tree.path("out"));
     const Words same = command("mitsuba/as", "");
     for (const ProcessResult& result : run_both(same, same)) require_success(result);
-    CHECK(content() == alone["mitsuba/as"]);
+    CHECK(tree.contents() == alone["mitsuba/as"]);
     // If two different conversions run at once, one is refused. With --force, the last one owns the folder.
     // No set mixes results of both.
     for (const Words& more : {Words{}, Words{"--force"}}) {
       fs::remove_all(tree.path("out"));
       run_both(command("mitsuba/as", more), command("mitsuba/ggx", more));
-      const auto files = content();
+      const auto files = tree.contents();
       for (int i = 0; i < count; ++i) {
         const std::string rough = "s" + std::to_string(i) + "_rough.png",
                           spec = "s" + std::to_string(i) + "_spec.png";
@@ -260,17 +245,19 @@ TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
 }
 
 TEST_CASE("texremap nights: a damaged journal line is ignored") {
-  const Tree tree;
+  const Session tree;
   write_sets(tree, 2, "tga");
+  const fs::path journal = tree.path("out/" + std::string(kJournal));
+  const auto append = [&](const char* text) { std::ofstream(journal, std::ios::app) << text; };
+  const char* unfinished = R"({"set": "s0", "fil)";
   CHECK(states(tree, {}) == "cc");
-  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "{\"set\": \"s0\", \"fil";
+  append(unfinished);
   CHECK(states(tree, {}) == "dd");
-  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "\n[[[\n{\"files\": 5}\n";
+  append("\n[[[\n{\"files\": 5}\n");
   CHECK(states(tree, {}) == "dd");
   // A line that has no end does not swallow the next line.
-  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "{\"set\": \"s0\", \"fil";
-  tree.map("in/s1_rough.tga", kGrey, OIIO::TypeUInt8, 2 * kTreeMapSize);
-  tree.map("in/s1_spec.tga", kColor, OIIO::TypeUInt8, 2 * kTreeMapSize);
+  append(unfinished);
+  tree.write_set("in/s1", "tga", OIIO::TypeUInt8, 2 * kMapSize);
   CHECK(states(tree, {}) == "dc");
-  CHECK_THAT(read_file(tree.path("out/" + std::string(kJournal))), Contains("\"fil\n{\"begun\""));
+  CHECK_THAT(read_file(journal), Contains("\"fil\n{\"begun\""));
 }

@@ -5,9 +5,8 @@
 #include <set>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "cli/texremap_tree.hpp"
+#include "cli/texremap_session.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -21,12 +20,10 @@ const Words kByItsFile = "/usr/bin/env " REMAP_TEXREMAP;
 const std::string kOfManifest = "convert --manifest sets.jsonl --from mitsuba/ward --to mitsuba/as -o ";
 
 // Writes sets of several sizes, folders and formats, and one with tiles.
-void write_library(const Tree& tree) {
+void write_library(const Session& tree) {
   for (int i = 0; i < 7; ++i) {
     const std::string name = "in/f" + std::to_string(i % 3) + "/s" + std::to_string(i);
-    const std::string extension = i % 2 == 0 ? ".png" : ".tga";
-    tree.map(name + "_rough" + extension, kGrey, OIIO::TypeUInt8, 8 + 8 * i);
-    tree.map(name + "_spec" + extension, kColor, OIIO::TypeUInt8, 8 + 8 * i);
+    tree.write_set(name, i % 2 == 0 ? "png" : "tga", OIIO::TypeUInt8, 8 + 8 * i);
   }
   for (const char* tile : {"1001", "1002"}) {
     tree.map(std::string("in/tiled/t_rough.") + tile + ".exr", kGrey, OIIO::TypeHalf);
@@ -34,25 +31,13 @@ void write_library(const Tree& tree) {
   }
 }
 
-void index(const Tree& tree) { REQUIRE(tree.texremap("index in -o sets.jsonl --force").exit_code == 0); }
+void index(const Session& tree) { REQUIRE(tree.texremap("index in -o sets.jsonl --force").exit_code == 0); }
 
-ProcessResult part(const Tree& tree, const std::string& which, const Words& more = {}) {
+ProcessResult part(const Session& tree, const std::string& which, const Words& more = {}) {
   return tree.texremap(kOfManifest + "out --json --part " + which + more);
 }
 
-// Returns the content of every result, by name.
-std::map<std::string, std::string> results_in(const Tree& tree, const std::string& folder) {
-  std::map<std::string, std::string> results;
-  for (const auto& entry : fs::recursive_directory_iterator(tree.path(folder))) {
-    const std::string name = fs::relative(entry.path(), tree.path(folder)).string();
-    if (entry.is_regular_file() && !name.starts_with(".texremap")) results[name] = read_file(entry.path());
-  }
-  return results;
-}
-
-bool exists(const Tree& tree, const std::string& name) { return fs::exists(tree.path(name)); }
-
-nlohmann::json merged(const Tree& tree, int exit_code) {
+nlohmann::json merged(const Session& tree, int exit_code) {
   const ProcessResult result = tree.texremap("merge-reports out --json");
   INFO(result.errors);
   CHECK(result.exit_code == exit_code);
@@ -65,37 +50,33 @@ nlohmann::json merged(const Tree& tree, int exit_code) {
 }  // namespace
 
 TEST_CASE("texremap parts: the union of the parts is what one process makes", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   REQUIRE(tree.texremap(kOfManifest + "one").exit_code == 0);
   CHECK(tree.texremap("convert in --recursive --from mitsuba/ward --to mitsuba/as -o walked").exit_code == 0);
-  std::set<std::string> names;
-  std::size_t count = 0;
+  std::multiset<std::string> names;
   for (int i = 1; i <= 4; ++i) {
     const ProcessResult result = part(tree, std::to_string(i) + "/4");
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
     const nlohmann::json report = tree_report(result.output);
-    for (const auto& set : report["sets"]) {
-      names.insert(set["name"].get<std::string>());
-      ++count;
-    }
-    CHECK(exists(tree, "out/" + std::string(kParts) + "/part-000" + std::to_string(i) + "-of-0004.jsonl"));
+    for (const auto& set : report["sets"]) names.insert(set["name"].get<std::string>());
+    CHECK(tree.exists("out/" + std::string(kParts) + "/part-000" + std::to_string(i) + "-of-0004.jsonl"));
   }
   CHECK(names.size() == 8);
-  CHECK(count == 8);
-  const auto one = results_in(tree, "one");
+  CHECK(std::set(names.begin(), names.end()).size() == 8);
+  const auto one = tree.contents("one");
   CHECK(one.size() == 18);
-  CHECK(results_in(tree, "out") == one);
-  CHECK(results_in(tree, "walked") == one);
+  CHECK(tree.contents("out") == one);
+  CHECK(tree.contents("walked") == one);
   const auto summary = merged(tree, 0);
   CHECK(summary["converted"] == 8);
   CHECK(summary["parts"] == 4);
 }
 
 TEST_CASE("texremap parts: a manifest is the same however the tree is listed, and holds every file once") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   const std::string first = tree.content("sets.jsonl");
@@ -119,7 +100,7 @@ TEST_CASE("texremap parts: a manifest is the same however the tree is listed, an
 }
 
 TEST_CASE("texremap parts: a part goes on where it ended, and finds what another part has done", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   const auto states = [&](const std::string& which) {
@@ -135,8 +116,7 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
   CHECK(states("1/2").find('c') != std::string::npos);
   // With three parts, other parts have the sets, but nothing is made again.
   CHECK(states("1/3") + states("2/3") + states("3/3") == "dddddddd");
-  tree.map("in/a_rough.png", kGrey);
-  tree.map("in/a_spec.png", kColor);
+  tree.write_set("in/a", "png");
   index(tree);
   std::string all = states("1/2") + states("2/2");
   std::sort(all.begin(), all.end());
@@ -150,13 +130,12 @@ TEST_CASE("texremap parts: a part goes on where it ended, and finds what another
 }
 
 TEST_CASE("texremap parts: a part of a manifest that has changed since is named", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   for (const char* which : {"1/2", "2/2"}) CHECK(part(tree, which).exit_code == 0);
   CHECK(merged(tree, 0)["problems"].empty());
-  tree.map("in/zz/z_rough.png", kGrey);
-  tree.map("in/zz/z_spec.png", kColor);
+  tree.write_set("in/zz/z", "png");
   index(tree);
   CHECK(part(tree, "2/2", "").exit_code == 0);
   CHECK_THAT(merged(tree, 1)["problems"][0].get<std::string>(), Contains("part-0002-of-0002: has manifest"));
@@ -165,7 +144,7 @@ TEST_CASE("texremap parts: a part of a manifest that has changed since is named"
 }
 
 TEST_CASE("texremap parts: schedulers tell the part by their variables", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   const auto note = [&](const std::string& environment, const std::string& which) {
@@ -189,7 +168,7 @@ TEST_CASE("texremap parts: schedulers tell the part by their variables", "[slow]
 }
 
 TEST_CASE("texremap parts: files that are gone or have another size fail their set alone") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   fs::remove(tree.path("in/f0/s0_spec.png"));
@@ -207,7 +186,7 @@ TEST_CASE("texremap parts: files that are gone or have another size fail their s
 }
 
 TEST_CASE("texremap parts: storage that does not answer is asked again, a full one ends with 75", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   const auto with_faults = [&](const std::string& name, int count, int code) {
@@ -233,7 +212,7 @@ TEST_CASE("texremap parts: storage that does not answer is asked again, a full o
 }
 
 TEST_CASE("texremap parts: plans name every part") {
-  const Tree tree;
+  const Session tree;
   write_library(tree);
   index(tree);
   const Words options = Words("-- --from mitsuba/ward --to mitsuba/as -o") + Words{std::string("o u t")};
@@ -241,19 +220,19 @@ TEST_CASE("texremap parts: plans name every part") {
   const ProcessResult plan = tree.run(kByItsFile + plan_words + options);
   INFO(plan.errors);
   CHECK(plan.exit_code == 0);
-  CHECK_FALSE(exists(tree, "o u t"));
+  CHECK_FALSE(tree.exists("o u t"));
   std::istringstream lines(tree.content("plan/commands.txt"));
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) {
-    write_file(tree.path("line.sh"), line + "\n");
+    tree.put("line.sh", line + "\n");
     const ProcessResult result = tree.run("/bin/sh line.sh");
     INFO(line << "\n" << result.errors);
     CHECK(result.exit_code == 0);
   }
   CHECK(count == 3);
   CHECK(tree.run("/bin/sh plan/merge.sh").exit_code == 0);
-  CHECK(results_in(tree, "o u t").size() == 18);
-  CHECK(exists(tree, "plan/report.jsonl"));
+  CHECK(tree.contents("o u t").size() == 18);
+  CHECK(tree.exists("plan/report.jsonl"));
   CHECK_THAT(tree.texremap(plan_words + options).errors, Contains("already exists (--force overwrites)"));
 }
 
@@ -262,9 +241,9 @@ namespace {
 const std::string kOfAssets = "convert --manifest assets.jsonl --to gltf -o ";
 
 // Writes a file whose material has one texture for diffuse and one for specular and glossiness.
-void write_asset(const Tree& tree, const std::string& name, const std::string& image) {
-  write_file(
-      tree.path(name),
+void write_asset(const Session& tree, const std::string& name, const std::string& image) {
+  tree.put(
+      name,
       R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],)"
       R"("materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
       R"("specularGlossinessTexture":{"index":1}}}}],"textures":[{"source":0},{"source":1}],)"
@@ -274,7 +253,7 @@ void write_asset(const Tree& tree, const std::string& name, const std::string& i
 
 // Writes four assets in two folders. Two of them share the images of a third folder, and the images of one
 // are missing.
-void write_assets(const Tree& tree) {
+void write_assets(const Session& tree) {
   for (const char* image : {"in/maps/wood", "in/a/own"}) {
     tree.map(std::string(image) + "_d.png", kColor, OIIO::TypeUInt8, 16);
     tree.map(std::string(image) + "_s.png", kWithAlpha, OIIO::TypeUInt8, 16);
@@ -283,13 +262,13 @@ void write_assets(const Tree& tree) {
   write_asset(tree, "in/a/table.gltf", "../maps/wood");
   write_asset(tree, "in/b/chair.gltf", "../maps/wood");
   write_asset(tree, "in/a/lamp.gltf", "own");
-  write_file(tree.path("in/b/paint.mtl"), "newmtl paint\nKd 0.5 0.5 0.5\nKs 0.2 0.2 0.2\nNs 50\n");
+  tree.put("in/b/paint.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nKs 0.2 0.2 0.2\nNs 50\n");
 }
 
 }  // namespace
 
 TEST_CASE("texremap parts: the union of the parts of assets is what one process makes", "[slow]") {
-  const Tree tree;
+  const Session tree;
   write_assets(tree);
   const ProcessResult index = tree.texremap("index in --assets -o assets.jsonl --json");
   INFO(index.errors);
@@ -313,10 +292,10 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
     return all;
   };
   CHECK(states("") == "cccc");
-  const auto one = results_in(tree, "one");
+  const auto one = tree.contents("one");
   CHECK(one.size() == 10);  // 4 assets and 6 new images; shared images become new images of each asset
-  CHECK(results_in(tree, "out") == one);
-  CHECK(results_in(tree, "walked") == one);
+  CHECK(tree.contents("out") == one);
+  CHECK(tree.contents("walked") == one);
   const auto summary = merged(tree, 0);
   CHECK(summary["assets"] == 4);
   CHECK(summary["converted"] == 4);
@@ -326,9 +305,9 @@ TEST_CASE("texremap parts: the union of the parts of assets is what one process 
 }
 
 TEST_CASE("texremap parts: an asset that fails is named, and files that changed fail their asset alone") {
-  const Tree tree;
+  const Session tree;
   write_assets(tree);
-  write_file(tree.path("in/b/broken.gltf"), "{");
+  tree.put("in/b/broken.gltf", "{");
   REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
   tree.map("in/a/own_s.png", kWithAlpha, OIIO::TypeUInt8, 32);
   for (const char* which : {"1/2", "2/2"}) tree.texremap(kOfAssets + "out --quiet --part " + which);
@@ -339,12 +318,12 @@ TEST_CASE("texremap parts: an asset that fails is named, and files that changed 
   const std::string errors = tree.texremap("merge-reports out").errors;
   CHECK_THAT(errors,
              Contains("broken.gltf: ") && Contains("lamp.gltf: ") && Contains("but the manifest lists"));
-  CHECK_FALSE(exists(tree, "out/a/lamp.gltf"));
-  CHECK(exists(tree, "out/b/chair.gltf"));
+  CHECK_FALSE(tree.exists("out/a/lamp.gltf"));
+  CHECK(tree.exists("out/b/chair.gltf"));
 }
 
 TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {
-  const Tree tree;
+  const Session tree;
   write_assets(tree);
   REQUIRE(tree.texremap("index in --assets -o assets.jsonl").exit_code == 0);
   const ProcessResult plan =
@@ -354,5 +333,5 @@ TEST_CASE("texremap parts: plans hand out assets as they hand out sets") {
   CHECK_THAT(plan.errors, Contains("4 assets in 2 parts"));
   CHECK(tree.run("/bin/sh plan/commands.txt").exit_code == 0);
   CHECK(tree.run("/bin/sh plan/merge.sh").exit_code == 0);
-  CHECK(results_in(tree, "out").size() == 10);
+  CHECK(tree.contents("out").size() == 10);
 }

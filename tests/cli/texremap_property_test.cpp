@@ -10,9 +10,8 @@
 #include <random>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "cli/texremap_tree.hpp"
+#include "cli/texremap_session.hpp"
 #include "lower/fit_file.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/workflow.hpp"
@@ -313,7 +312,7 @@ std::vector<Material> draw_materials(Dice& dice, const Batch& batch, const Set& 
 }
 
 // Writes the files, and sets `materials` to the values that they really store.
-void write_set(const Tree& tree, const std::string& folder, Set& set) {
+void write_set(const Session& tree, const std::string& folder, Set& set) {
   fs::create_directories(tree.path(folder));
   for (const File& file : set.files) {
     const fs::path path = tree.path(folder + "/" + set.name + "_" + file.word + "." + file.extension);
@@ -471,21 +470,13 @@ void check_set(const nlohmann::json& report, const Batch& batch, const Set& set)
 
 // --- The ways to convert follow.
 
-ProcessResult run_batch(const Tree& tree, const Batch& batch, const std::string& out,
+ProcessResult run_batch(const Session& tree, const Batch& batch, const std::string& out,
                         const Words& more = {}) {
   return require_success(tree.texremap("convert in --json -o " + tree.path(out) + batch.words() + more));
 }
 
-std::map<std::string, std::string> content(const Tree& tree, const std::string& out) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(tree.path(out)))
-    if (entry.is_regular_file() && entry.path().filename() != kJournal)
-      files[fs::relative(entry.path(), tree.path(out)).string()] = read_file(entry.path());
-  return files;
-}
-
 // Converts the maps of a set as single options.
-void check_single(const Tree& tree, const Batch& batch, const Set& set, const nlohmann::json& report) {
+void check_single(const Session& tree, const Batch& batch, const Set& set, const nlohmann::json& report) {
   Words words = "convert --json -o " + tree.path("single") + batch.words();
   std::map<std::string, std::string> maps;  // keyed by role
   for (const File& file : set.files) {
@@ -535,7 +526,7 @@ std::string numbers(const Color& color) {
 }
 
 // Converts the numbers of one texel instead of maps.
-void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
+void check_numbers(const Session& tree, const Batch& batch, const Set& set) {
   const Material& given = set.materials.front();
   Words words = "convert --json";
   if (batch.from.kind == Kind::kBrdf)
@@ -628,11 +619,11 @@ void check_library(const Batch& batch, const Set& set) {
 }
 
 // A resumed run changes nothing except damaged results and results of changed inputs, which it makes again.
-void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
+void check_resumed(const Session& tree, const Batch& batch, std::vector<Set>& sets, Dice& dice) {
   const auto resumed = [&] { return run_batch(tree, batch, "out", "").output; };
-  const auto before = content(tree, "out");
+  const auto before = tree.contents("out");
   CHECK(set_states(resumed()) == std::string(sets.size(), 'd'));
-  CHECK(content(tree, "out") == before);
+  CHECK(tree.contents("out") == before);
 
   const auto& damaged =
       std::next(before.begin(),
@@ -646,13 +637,13 @@ void check_resumed(const Tree& tree, const Batch& batch, std::vector<Set>& sets,
   CHECK(letters.back() == 'c');
   CHECK(std::count(letters.begin(), letters.end(), 'c') == (damaged.starts_with(changed.name + "_") ? 1 : 2));
   run_batch(tree, batch, "fresh");
-  CHECK(content(tree, "out") == content(tree, "fresh"));
+  CHECK(tree.contents("out") == tree.contents("fresh"));
 }
 
 void check_batch(std::uint64_t seed) {
   Dice dice(seed);
   const Batch batch = draw_batch(dice);
-  const Tree tree;
+  const Session tree;
   std::vector<Set> sets;
   for (int i = 0; i < kSetsABatch; ++i) {
     Set set;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
 #include "core/base64.hpp"
@@ -37,13 +36,9 @@ nlohmann::json reported(const Session& session, const Words& words) {
 
 // Writes a set whose maps have one value each.
 void write_metal(const Session& session, const std::string& name) {
-  const auto spec = test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8);
-  session.make(name + "_roughness.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
-               [](int, int, int) { return 0.4f; });
-  session.make(name + "_baseColor.png", spec,
-               [](int, int, int c) { return 0.2f + 0.2f * static_cast<float>(c); });
-  session.make(name + "_metallic.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
-               [](int, int, int) { return 1.0f; });
+  session.flat(name + "_roughness.png", {0.4f});
+  session.flat(name + "_baseColor.png", {0.2f, 0.4f, 0.6f});
+  session.flat(name + "_metallic.png", {1.0f});
 }
 
 }  // namespace
@@ -68,8 +63,8 @@ TEST_CASE("texremap report: a glTF file, as its material says, without conversio
     std::ranges::sort(found);
     return found;
   };
-  CHECK(names("before") == std::vector<std::string>{"diffuse", "glossiness", "specular"});
-  CHECK(names("after") == std::vector<std::string>{"base color", "metallic", "roughness"});
+  CHECK(names("before") == Names{"diffuse", "glossiness", "specular"});
+  CHECK(names("after") == Names{"base color", "metallic", "roughness"});
 }
 
 TEST_CASE("texremap report: looks hold the numbers of the maps") {
@@ -90,7 +85,6 @@ TEST_CASE("texremap report: looks hold the numbers of the maps") {
 
 TEST_CASE("texremap report: normal maps are shown with green up, heights are not") {
   const Session session;
-  std::filesystem::create_directory(session.path("in"));
   write_metal(session, "in/a");
   const auto normals = [&](const std::string& name, bool is_down) {
     session.make(name, test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [&](int x, int y, int c) {
@@ -109,27 +103,18 @@ TEST_CASE("texremap report: normal maps are shown with green up, heights are not
     REQUIRE(std::abs(std::to_integer<int>(first.bytes[i]) - std::to_integer<int>(second.bytes[i])) <= 1);
   CHECK(first.bytes[0] < first.bytes[3 * 7]);          // red rises to the right
   CHECK(first.bytes[3 * 8 * 7 + 1] > first.bytes[1]);  // green rises downwards, as in the file
+  const Words again = "in -o out --from blender --to threejs --dry-run --force";
   CHECK(up["materials"][0]["looks"][0]["still"] !=
-        reported(session,
-                 "in -o out --from blender --to threejs "
-                 "--dry-run --force")["materials"][0]["looks"][0]["still"]);
-
-  session.make("in/a_normal_gl.png", test_spec(8, 8, {"Y"}, OIIO::TypeUInt8),
-               [](int x, int, int) { return static_cast<float>(x) / 7.0f; });
-  CHECK_FALSE(
-      reported(session, "in -o out --from blender --to threejs --dry-run --force")["materials"][0].contains(
-          "normal"));
+        reported(session, again)["materials"][0]["looks"][0]["still"]);
+  session.map("in/a_normal_gl.png", kGrey);
+  CHECK_FALSE(reported(session, again)["materials"][0].contains("normal"));
 }
 
 TEST_CASE("texremap report: sets of a BRDF model are shown with their diffuse map") {
   const Session session;
-  std::filesystem::create_directory(session.path("in"));
-  session.make("in/a_roughness.png", test_spec(4, 4, {"Y"}, OIIO::TypeUInt8),
-               [](int, int, int) { return 0.4f; });
-  session.make("in/a_specular.png", test_spec(4, 4, {"R", "G", "B"}, OIIO::TypeUInt8),
-               [](int, int, int) { return 0.2f; });
-  session.make("in/a_diffuse.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8),
-               [](int, int, int c) { return 0.2f + 0.2f * static_cast<float>(c); });
+  session.flat("in/a_roughness.png", {0.4f});
+  session.flat("in/a_specular.png", {0.2f, 0.2f, 0.2f});
+  session.flat("in/a_diffuse.png", {0.2f, 0.4f, 0.6f}, OIIO::TypeUInt8, 8);
   for (const std::string& words :
        {std::string("in"), std::string("--roughness in/a_roughness.png --specular "
                                        "in/a_specular.png --diffuse in/a_diffuse.png")}) {
@@ -149,12 +134,12 @@ TEST_CASE("texremap report: materials of MTL and OBJ files are shown by Blinn's 
   session.make("wood.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [](int x, int, int c) {
     return 0.3f + 0.05f * static_cast<float>(x) + 0.1f * static_cast<float>(c);
   });
-  write_file(session.path("box.mtl"),
-             "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\nKs 0.1 0.1 0.1\nNs 60\n"
-             "newmtl metal\nKd 0 0 0\nKs 0.6 0.5 0.4\nNs 200\n");
-  write_file(session.path("box.obj"),
-             "mtllib box.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
-             "usemtl wood\nf 1/1 2/2 3/3\nusemtl metal\nf 1/1 3/3 2/2\n");
+  session.put("box.mtl",
+              "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\nKs 0.1 0.1 0.1\nNs 60\n"
+              "newmtl metal\nKd 0 0 0\nKs 0.6 0.5 0.4\nNs 200\n");
+  session.put("box.obj",
+              "mtllib box.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+              "usemtl wood\nf 1/1 2/2 3/3\nusemtl metal\nf 1/1 3/3 2/2\n");
   for (const std::string& words :
        {std::string("box.mtl -o out.mtl"), std::string("box.obj --to gltf -o out.glb"),
         std::string("box.obj --to gltf --dry-run --force -o out.gltf")}) {
@@ -177,13 +162,9 @@ TEST_CASE("texremap report: materials of MTL and OBJ files are shown by Blinn's 
 
 TEST_CASE("texremap report: maps of an MTL file are shown by the channels that -imfchan names") {
   const Session session;
-  session.make("orm.png", test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), [](int, int, int c) {
-    return c == 0 ? 1.0f : c == 1 ? 0.4f : 0.0f;
-  });
-  write_file(session.path("a.mtl"),
-             "newmtl a\nKd 0.5 0.5 0.5\nmap_Pr -imfchan g orm.png\nmap_Pm -imfchan b orm.png\n");
-  write_file(session.path("a.obj"),
-             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  session.flat("orm.png", {1.0f, 0.4f, 0.0f});
+  session.put("a.mtl", "newmtl a\nKd 0.5 0.5 0.5\nmap_Pr -imfchan g orm.png\nmap_Pm -imfchan b orm.png\n");
+  session.put("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
   const auto data = reported(session, "a.obj --to gltf -o a.glb");
   CHECK(data["materials"][0]["looks"].back()["rms"].get<double>() < 0.02);
 }
@@ -216,7 +197,6 @@ TEST_CASE("texremap report: sixteen materials at most, and what is not shown is 
 
 TEST_CASE("texremap report: names stay text") {
   const Session session;
-  std::filesystem::create_directory(session.path("in"));
   write_metal(session, "in/a");
   std::filesystem::rename(session.path("in"), session.path("in<b>&"));
   require_success(session.texremap("convert in<b>& -o out --from blender --to threejs --report r.html"));

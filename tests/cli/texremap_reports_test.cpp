@@ -3,25 +3,20 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
 
 using namespace remap;
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
 
 class ReportSession : public Session {
  public:
-  void put(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-  }
   // Writes an image of 32x32 texels of 8 bits. Channels without a value are noise.
-  void image(const std::string& name, const std::vector<std::string>& channels,
-             const std::map<int, float>& values = {}, const OIIO::ParamValueList& tags = {}) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
+  void drawn(const std::string& name, const Names& channels, const std::map<int, float>& values = {},
+             const OIIO::ParamValueList& tags = {}) const {
     OIIO::ImageSpec spec = test_spec(32, 32, channels, OIIO::TypeUInt8);
     for (const OIIO::ParamValue& tag : tags) spec.attribute(std::string(tag.name()), tag.type(), tag.data());
     make(name, spec, [&](int x, int y, int c) { return values.contains(c) ? values.at(c) : noise(x, y, c); });
@@ -48,8 +43,6 @@ class ReportSession : public Session {
 };
 
 using Found = std::vector<std::string>;
-const std::vector<std::string> kReportGrey = {"Y"}, kReportColor = {"R", "G", "B"},
-                               kReportAlpha = {"R", "G", "B", "A"};
 const std::string kNotMetal = R"("pbrMetallicRoughness":{"metallicFactor":0)";
 
 }  // namespace
@@ -60,11 +53,11 @@ TEST_CASE("reports: 04 check looks at the image of a texture that convert reads"
     return c == 2 ? 1.0f : 0.5f + 0.1f * (static_cast<float>(x) / 31.0f - 0.5f) * (c == 0 ? 1.0f : -1.0f);
   };
   for (const std::string extension : {"png", "webp"})
-    session.make("n." + extension, test_spec(32, 32, kReportColor, OIIO::TypeUInt8), normals);
+    session.map("n." + extension, kColor, normals, OIIO::TypeUInt8, 32);
   // OpenImageIO changes the colors of a WebP with alpha, so sets refuse it. Conversions of assets read it
   // correctly.
-  session.make("alpha.webp", test_spec(32, 32, kReportAlpha, OIIO::TypeUInt8),
-               [&](int x, int y, int c) { return c == 3 ? (x + y == 0 ? 0.5f : 1.0f) : normals(x, y, c); });
+  const auto faded = [&](int x, int y, int c) { return c < 3 ? normals(x, y, c) : x + y == 0 ? 0.5f : 1.0f; };
+  session.map("alpha.webp", kWithAlpha, faded, OIIO::TypeUInt8, 32);
   session.put("n.ktx2", "\xabKTX 20\xbb\r\n\x1a\n and no more");
   const std::string material = kNotMetal + R"(,"baseColorTexture":{"index":0}})";
   const Found wrong = {"wrong-texture likely"};
@@ -92,8 +85,8 @@ TEST_CASE("reports: 04 check looks at the image of a texture that convert reads"
 
 TEST_CASE("reports: 05 what a factor of 0 turns off cannot be wrong", "[slow]") {
   const ReportSession session;
-  session.image("c.png", kReportColor);
-  session.image("y.png", kReportGrey);
+  session.drawn("c.png", kColor);
+  session.drawn("y.png", kGrey);
   const auto found = [&](const std::string& image, const std::string& material,
                          const std::string& more = "") {
     session.gltf("a.gltf", material, R"({"source":0})", R"({"uri":")" + image + "\"}");
@@ -142,8 +135,8 @@ TEST_CASE("reports: 06 formats without a place for a color space have no tag", "
   for (const std::string extension : {"webp", "tga", "bmp", "jpg", "tif", "exr"}) {
     const bool is_tagged = extension == "jpg" || extension == "tif";  // their Exif data has a color space
     for (const std::string role : {"Roughness", "Metallic", "Normal", "AO"}) {
-      session.image(extension + "/a_" + role + "." + extension, kReportColor, {{2, 0.99f}}, srgb);
-      session.image(extension + "_plain/a_" + role + "." + extension, kReportColor, {{2, 0.99f}});
+      session.drawn(extension + "/a_" + role + "." + extension, kColor, {{2, 0.99f}}, srgb);
+      session.drawn(extension + "_plain/a_" + role + "." + extension, kColor, {{2, 0.99f}});
     }
     const Found found = session.findings(extension + " --ignore metallic-greys,wrong-texture,duplicate-map");
     CHECK(found == (is_tagged ? Found(4, "srgb-data likely") : Found{}));
@@ -171,9 +164,9 @@ TEST_CASE("reports: 09 the command for an asset converts it") {
 
 TEST_CASE("reports: 12 channels of one packed map are no duplicates") {
   const ReportSession session;
-  session.image("orm.png", kReportColor, {{0, 1.0f}});
-  session.image("grey.png", kReportGrey);
-  session.image("leaf.png", kReportAlpha);
+  session.drawn("orm.png", kColor, {{0, 1.0f}});
+  session.drawn("grey.png", kGrey);
+  session.drawn("leaf.png", kWithAlpha);
   const auto found = [&](const std::string& lines) {
     session.put("a.mtl", "newmtl a\nKd 1 1 1\n" + lines);
     return session.findings("a.mtl --ignore metallic-greys");
@@ -188,7 +181,7 @@ TEST_CASE("reports: 17 a number replaces a map only if all its tiles and channel
           "[slow]") {
   const ReportSession session;
   const auto tile = [&](const std::string& name, float value) {
-    session.image(name, kReportColor, {{0, value}, {1, value}, {2, value}});
+    session.drawn(name, kColor, {{0, value}, {1, value}, {2, value}});
   };
   for (const std::string role : {"BaseColor", "Roughness"}) {
     tile("two/a_" + role + ".1001.png", 0.25f);
@@ -201,15 +194,14 @@ TEST_CASE("reports: 17 a number replaces a map only if all its tiles and channel
   CHECK(session.findings("one") == Found{"constant-map possible", "constant-map possible"});
   CHECK(session.findings("map") == Found{"constant-map certain", "constant-map certain"});
   // A packed map is needed for its other channels, even if one is constant.
-  session.image("packed/a_ORM.png", kReportColor, {{1, 0.5f}, {2, 0.0f}});
+  session.drawn("packed/a_ORM.png", kColor, {{1, 0.5f}, {2, 0.0f}});
   CHECK(session.findings("packed --ignore channel-order") == Found{});
   // Tiles may differ in size, but the maps of one tile may not.
-  fs::create_directories(session.path("sizes"));
-  session.make("sizes/a_Roughness.1001.png", test_spec(32, 32, {"Y"}, OIIO::TypeUInt8), noise);
-  session.make("sizes/a_Roughness.1002.png", test_spec(16, 16, {"Y"}, OIIO::TypeUInt8), noise);
+  session.map("sizes/a_Roughness.1001.png", kGrey, OIIO::TypeUInt8, 32);
+  session.map("sizes/a_Roughness.1002.png", kGrey, OIIO::TypeUInt8, 16);
   CHECK(session.findings("sizes") == Found{});
-  session.make("sizes/a_Height.1001.png", test_spec(32, 32, {"Y"}, OIIO::TypeUInt8), noise);
-  session.make("sizes/a_Height.1002.png", test_spec(32, 32, {"Y"}, OIIO::TypeUInt8), noise);
+  for (const char* name : {"sizes/a_Height.1001.png", "sizes/a_Height.1002.png"})
+    session.map(name, kGrey, OIIO::TypeUInt8, 32);
   CHECK(session.findings("sizes --ignore duplicate-map") == Found{"sizes likely"});
 }
 
@@ -231,22 +223,22 @@ TEST_CASE("reports: 18 metal has no reflectance but its base color") {
 
 TEST_CASE("reports: check fails on certain findings, or on others by --fail-on") {
   const ReportSession session;
-  session.image("set/a_Metallic.png", kReportGrey, {{0, 0.5f}});  // a possible finding
+  session.drawn("set/a_Metallic.png", kGrey, {{0, 0.5f}});  // a possible finding
   CHECK(session.texremap("check set").exit_code == 0);
   CHECK(session.texremap("check set").output.find("[metallic-greys, possible]") != std::string::npos);
   CHECK(session.texremap("check set").errors.find("1 finding, none of which is certain") !=
         std::string::npos);
   CHECK(session.texremap("check set --fail-on likely").exit_code == 0);
   CHECK(session.texremap("check set --fail-on possible").exit_code == 1);
-  session.image("set/a_Roughness.png", kReportGrey, {{0, 0.5f}});  // a certain finding
+  session.drawn("set/a_Roughness.png", kGrey, {{0, 0.5f}});  // a certain finding
   CHECK(session.texremap("check set").exit_code == 1);
   CHECK(session.texremap("check set --fail-on never").exit_code == 2);
 }
 
 TEST_CASE("reports: an asset is converted with as few words as people type", "[slow]") {
   const ReportSession session;
-  session.image("d.png", kReportColor);
-  session.image("s.png", kReportAlpha);
+  session.drawn("d.png", kColor);
+  session.drawn("s.png", kWithAlpha);
   session.gltf("in.gltf",
                R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},)"
                R"("specularGlossinessTexture":{"index":1}}})",
@@ -258,7 +250,7 @@ TEST_CASE("reports: an asset is converted with as few words as people type", "[s
   CHECK(made["materials"][0].contains("pbrMetallicRoughness"));
   // Only the images that converted materials used are removed.
   CHECK(made["images"].size() == 2);
-  CHECK_FALSE(fs::exists(session.path("new/s.png")));
+  CHECK_FALSE(session.exists("new/s.png"));
   const ProcessResult again = session.texremap("convert in.gltf new/out.gltf");
   CHECK(again.exit_code != 0);
   CHECK_THAT(again.errors, Catch::Matchers::Contains("already exists (--force overwrites)"));
@@ -267,4 +259,216 @@ TEST_CASE("reports: an asset is converted with as few words as people type", "[s
   require_success(session.texremap("convert in.gltf --keep-unused -o kept"));
   CHECK(nlohmann::json::parse(session.content("kept/in.gltf"))["images"].size() == 4);
   CHECK(session.texremap("convert in.gltf").exit_code == 2);
+}
+
+namespace {
+
+// A ReportedSets is a folder of sets for one report.
+class ReportedSets : public Session {
+ public:
+  // Writes a map of one color, in steps of 8 bits.
+  void plain(const std::string& name, const std::vector<int>& values, int size = 16) const {
+    std::vector<float> shares;
+    for (const int value : values) shares.push_back(static_cast<float>(value) / 255.0f);
+    flat(name, shares, OIIO::TypeUInt8, size);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("reports: 13 rough_ao of Poly Haven", "[reports][slow]") {
+  const ReportedSets sets;
+  sets.plain("in/textures/old_bench_diff_1k.jpg", {120, 80, 40});
+  sets.plain("in/textures/old_bench_nor_1k.jpg", {128, 128, 255});
+  sets.plain("in/textures/old_bench_rough_ao_1k.png", {200, 180, 0});
+  const std::string packed = "out/textures/old_bench_occlusionRoughnessMetallic.png";
+  SECTION("alone") {
+    require_success(
+        sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf --metallic 0 -o out"));
+    CHECK(sets.texel(packed) == std::vector{180, 200, 0});
+  }
+  SECTION("beside arm, which contains more of the material") {
+    sets.plain("in/textures/old_bench_arm_1k.png", {190, 210, 255});
+    const ProcessResult result =
+        require_success(sets.texremap("convert in -r --from polyhaven --to gltf --layout gltf -o out"));
+    CHECK(sets.texel(packed) == std::vector{190, 210, 255});
+    CHECK_THAT(result.errors, Contains("roughness is read from old_bench_arm_1k.png:G"));
+  }
+}
+
+TEST_CASE("reports: 19 a nearly grey roughness map", "[reports][slow]") {
+  const ReportedSets sets;
+  const int tint = GENERATE(5, 18);
+  const std::string extension = GENERATE("png", "jpg"), map = "in/sand_rough." + extension;
+  sets.plain("in/sand_albedo.png", {120, 80, 40}, 32);
+  const auto draw = [&](const std::function<int(int)>& red) {
+    const auto step = [&](int x, int, int c) {
+      return static_cast<float>(100 + (c == 0 ? red(x) : 0)) / 255.0f;
+    };
+    sets.map(map, kColor, step, OIIO::TypeUInt8, 32);
+  };
+  draw([&](int x) { return x >= 16 ? tint : 0; });
+  const Words words = "convert in --from metal-rough --to gltf --layout gltf --metallic 0 -o out";
+  const ProcessResult result = require_success(sets.texremap(words));
+  CHECK_THAT(result.errors,
+             Contains("warning: " + map +
+                      ": is not exactly grey: the channels differ from G, which is used, by at most "));
+  if (extension == "png")
+    CHECK_THAT(result.errors, Contains("by at most " + std::to_string(tint) + " of 255"));
+  CHECK(std::abs(sets.texel("out/sand_occlusionRoughnessMetallic.png")[1] - 100) <=
+        (extension == "png" ? 0 : 3));
+
+  // A map with different colors is refused, and the message proposes an option that works.
+  draw([](int x) { return 4 * x; });
+  const ProcessResult refused = sets.texremap(words + "--force");
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.errors, Contains("(choose one channel: --roughness '*_rough." + extension + ":G')"));
+  require_success(sets.texremap(words + ("--force --roughness *_rough." + extension + ":R")));
+}
+
+TEST_CASE("reports: one map for several sets of a folder", "[reports][slow]") {
+  const ReportedSets sets;
+  for (const std::string name : {"black", "white"}) {
+    sets.plain("in/king_" + name + "_roughness.png", {90});
+    sets.plain("in/king_" + name + "_baseColor.png", {120, 80, 40});
+  }
+  sets.plain("in/king_shared_metallic.png", {255});
+  const ProcessResult result = require_success(sets.texremap(
+      "convert in --from metallic --to gltf --layout gltf --metallic in/king_shared_metallic.png -o out"));
+  CHECK_THAT(result.errors, Contains("note: in/king_shared_metallic.png is used for all sets"));
+  for (const std::string name : {"black", "white"})
+    CHECK(sets.texel("out/king_" + name + "_occlusionRoughnessMetallic.png") == std::vector{255, 90, 255});
+  // A name without * is also searched in the folder of each set's maps.
+  require_success(
+      sets.texremap("convert in --from metallic --to gltf --metallic king_shared_metallic.png -o two"));
+  CHECK(sets.texremap("convert in --from metallic --to gltf --metallic nothing.png -o three").exit_code == 1);
+}
+
+namespace {
+
+// A Green is the direction of green that an engine reads: up, down, or as in the input.
+enum class Green { kUp, kDown, kKept };
+constexpr const char* kEngines[] = {"gltf",    "unity",   "unity-hdrp", "unreal",  "godot",
+                                    "threejs", "blender", "usd",        "marmoset"};
+Green green_of(const std::string& engine) {
+  return engine == "unreal" ? Green::kDown : engine == "marmoset" ? Green::kKept : Green::kUp;
+}
+
+void write_rock(const ReportedSets& sets, const std::string& normal) {
+  sets.plain("in/T_Rock_BC.png", {120, 80, 40});
+  sets.plain("in/T_Rock_ORM.png", {255, 90, 0});
+  sets.plain("in/" + normal, {128, 100, 255});
+}
+
+// `--to gltf` only chooses the material, so the layout must be given.
+Words words_to(const std::string& engine) {
+  return "--to " + engine + (engine == "gltf" ? " --layout gltf" : "");
+}
+
+}  // namespace
+
+TEST_CASE("reports: 07 green of normal maps between all engines", "[reports][slow]") {
+  const ReportedSets sets;
+  write_rock(sets, "T_Rock_N.png");
+  for (const char* from : kEngines)
+    for (const char* to : kEngines) {
+      INFO(from << " to " << to);
+      const Green written = green_of(from), read = green_of(to);
+      const ProcessResult result =
+          require_success(sets.texremap(Words("convert in --force -o out --from") + from + words_to(to)));
+      const bool is_known = written != Green::kKept && read != Green::kKept;
+      const bool is_inverted = is_known && written != read;
+      CHECK(sets.texel("out/T_Rock_N.png") == std::vector{128, is_inverted ? 155 : 100, 255});
+      const std::string line = "note: in/T_Rock_N.png: green is ";
+      if (is_inverted)
+        CHECK_THAT(result.errors,
+                   Contains(line + "inverted in the copy T_Rock_N.png, because --from " + from));
+      else if (is_known)
+        CHECK_THAT(result.errors, !Contains(line));
+      else
+        CHECK_THAT(result.errors, Contains(line + "kept, because "));
+    }
+}
+
+TEST_CASE("reports: 07 the name of a normal map wins over --from", "[reports][slow]") {
+  const ReportedSets sets;
+  const auto green = [&](const std::string& words, const std::string& name) {
+    std::filesystem::remove_all(sets.path("out"));
+    require_success(sets.texremap(Words("convert in -o out") + Words(words)));
+    return sets.texel("out/" + name)[1];
+  };
+  SECTION("OpenGL") {
+    write_rock(sets, "T_Rock_NormalGL.png");
+    CHECK(green("--from unreal --to gltf --layout gltf", "T_Rock_NormalGL.png") == 100);
+    CHECK(green("--from gltf --to unreal", "T_Rock_NormalDX.png") == 155);
+    CHECK(green("--from metal-rough --to ue5", "T_Rock_NormalDX.png") == 155);
+  }
+  SECTION("DirectX") {
+    write_rock(sets, "T_Rock_nor_dx.png");
+    CHECK(green("--from gltf --to unreal", "T_Rock_nor_dx.png") == 100);
+    CHECK(green("--from gltf --to blender", "T_Rock_nor_gl.png") == 155);
+  }
+  SECTION("neither the name nor the source says it") {
+    write_rock(sets, "T_Rock_N.png");
+    CHECK(green("--from metal-rough --to unity", "T_Rock_N.png") == 100);
+    CHECK_THAT(sets.texremap("convert in --from substance --to unity -o two").errors,
+               Contains("in/T_Rock_N.png: green is kept, because neither the file name nor --from shows "
+                        "whether the map is OpenGL or DirectX; unity reads OpenGL (green up)"));
+  }
+}
+
+TEST_CASE("reports: a set for an engine is complete, by --to as by --layout", "[reports][slow]") {
+  const ReportedSets sets;
+  write_rock(sets, "T_Rock_N.png");
+  sets.plain("in/T_Rock_Height.png", {70});
+  sets.plain("in/T_Rock_Emissive.png", {1, 2, 3});
+  sets.plain("in/T_Rock_Opacity.png", {40});
+  const std::vector<std::string> others = {"T_Rock_Emissive.png", "T_Rock_Height.png", "T_Rock_N.png",
+                                           "T_Rock_Opacity.png"};
+  std::vector<std::string> made = {"T_Rock_BaseMap.png", "T_Rock_MetallicSmoothness.png",
+                                   "T_Rock_Occlusion.png"};
+  std::vector<std::string> all = made;
+  all.insert(all.end(), others.begin(), others.end());
+  std::sort(all.begin(), all.end());
+  const std::string words = GENERATE("--to unity", "--from gltf --to gltf --layout unity");
+  require_success(sets.texremap("convert in -o out " + words));
+  CHECK(sets.results() == all);
+  CHECK(sets.texel("out/T_Rock_MetallicSmoothness.png") == std::vector{0, 0, 0, 165});
+  std::filesystem::remove_all(sets.path("out"));
+  require_success(sets.texremap("convert in --only-converted -o out " + words));
+  CHECK(sets.results() == made);
+}
+
+TEST_CASE("reports: what a packed map holds besides comes along as a map", "[reports][slow]") {
+  const ReportedSets sets;
+  sets.plain("in/T_Rock_BC.png", {120, 80, 40});
+  sets.plain("in/T_Rock_ORDp.png", {250, 90, 33});
+  require_success(sets.texremap("convert in --from unreal --to unity --metallic 0 -o out"));
+  CHECK(sets.texel("out/T_Rock_height.png") == std::vector{33});
+  CHECK(sets.texel("out/T_Rock_Occlusion.png") == std::vector{250});
+}
+
+TEST_CASE("reports: a folder prints one line a set where nothing is visible", "[reports][slow]") {
+  const ReportedSets sets;
+  constexpr std::size_t kSets = 12;
+  for (std::size_t i = 0; i < kSets; ++i) {
+    const std::string name = "in/rock" + std::to_string(i) + "x_";
+    sets.plain(name + "diffuse.png", {120, 80, 40}, 8);
+    sets.plain(name + "specular.png", {56, 56, 56}, 8);
+    sets.plain(name + "glossiness.png", {200}, 8);
+    sets.plain(name + "normal.png", {128, 128, 255}, 8);
+  }
+  const Words words = "convert in --from gltf-specgloss --to unreal --force -o out";
+  const std::string brief = require_success(sets.texremap(words)).errors;
+  CHECK(count_of(brief, "\n") <= kSets + 16);
+  CHECK_THAT(brief, !Contains("undetermined") && Contains("of the same kinds (--verbose lists them)"));
+  const std::string verbose = require_success(sets.texremap(words + "--verbose")).errors;
+  CHECK(count_of(verbose, "\n") >= 4 * kSets);
+  CHECK_THAT(verbose, Contains("metallic is undetermined, without visible effect"));
+  // Metal-rough cannot express a blue metal with red diffuse.
+  sets.plain("in/rock0x_specular.png", {20, 20, 230}, 8);
+  sets.plain("in/rock0x_diffuse.png", {230, 20, 20}, 8);
+  CHECK_THAT(
+      require_success(sets.texremap(words)).errors,
+      Contains("in/rock0x: metal-rough cannot express these maps exactly; the visible difference is about"));
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
 #include "generated/materials/materials.hpp"
@@ -13,27 +12,26 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kSide = 24;
+constexpr int kSide = kMapSize;
 
 float level(int x, int y, int c) { return 0.05f + 0.9f * noise(x, y, c); }
 
 // Writes maps of a coated material, as floats.
-void write_coated(const Session& session, const std::string& folder = "") {
-  const auto make = [&](const std::string& name, const std::vector<std::string>& channels, int seed) {
-    session.make(folder + name, test_spec(kSide, kSide, channels, OIIO::TypeFloat),
-                 [seed](int x, int y, int c) { return level(x, y, c + seed); });
+void write_coated(const Session& session) {
+  const auto make = [&](const char* name, const Names& channels, int seed) {
+    const auto texel = [seed](int x, int y, int c) { return level(x, y, c + seed); };
+    session.map(name, channels, texel, OIIO::TypeFloat, kSide);
   };
-  make("b.exr", {"R", "G", "B"}, 0);
-  make("m.exr", {"Y"}, 5);
-  make("r.exr", {"Y"}, 7);
-  make("coat.exr", {"Y"}, 9);
+  make("b.exr", kColor, 0);
+  make("m.exr", kGrey, 5);
+  make("r.exr", kGrey, 7);
+  make("coat.exr", kGrey, 9);
 }
 
 const Words kCoated = "--base-color b.exr --metallic m.exr --roughness r.exr --input coat_weight=coat.exr";
 
-nlohmann::json translated(const Session& session, Words words) {
-  return nlohmann::json::parse(
-      require_success(session.texremap(Words("convert -o out --json") + words)).output);
+nlohmann::json translated(const Session& session, const Words& words) {
+  return session.json(Words("convert -o out --json") + words);
 }
 
 materials::Color color_at(const TestImage& image, int x, int y) {
@@ -75,8 +73,8 @@ TEST_CASE("texremap translation: Blender to OpenPBR equals the header") {
 
 TEST_CASE("texremap translation: maps whose values stay are copied byte for byte") {
   const Session session;
-  session.make("b.png", test_spec(kSide, kSide, {"R", "G", "B"}, OIIO::TypeUInt8), level);
-  session.make("orm.png", test_spec(kSide, kSide, {"R", "G", "B"}, OIIO::TypeUInt8), level);
+  session.map("b.png", kColor, level);
+  session.map("orm.png", kColor, level);
   const auto json = translated(session,
                                "--from blender --to openpbr --base-color b.png --metallic orm.png:B "
                                "--roughness orm.png:G");
@@ -113,37 +111,25 @@ TEST_CASE("texremap translation: OpenPBR to USD makes maps that the source lacks
 
 TEST_CASE("texremap translation: sets of folders are found by the names of their inputs") {
   const Session session;
-  std::filesystem::create_directories(session.path("sets"));
-  const auto make = [&](const std::string& name, const std::vector<std::string>& channels) {
-    session.make("sets/" + name, test_spec(kSide, kSide, channels, OIIO::TypeUInt8), level);
-  };
-  make("car_BaseColor.png", {"R", "G", "B"});
-  make("car_Roughness.png", {"Y"});
-  make("car_Metallic.png", {"Y"});
-  make("car_Coat_Opacity.png", {"Y"});
-  make("car_Coat_Roughness.png", {"Y"});
-  make("car_Normal.png", {"R", "G", "B"});
-  make("shirt_base_color.png", {"R", "G", "B"});
-  make("shirt_sheen_weight.png", {"Y"});
+  for (const std::string name : {"car_BaseColor", "car_Normal", "shirt_base_color"})
+    session.map("sets/" + name + ".png", kColor, level);
+  for (const std::string name :
+       {"car_Roughness", "car_Metallic", "car_Coat_Opacity", "car_Coat_Roughness", "shirt_sheen_weight"})
+    session.map("sets/" + name + ".png", kGrey, level);
   require_success(
       session.texremap("convert sets --from openpbr --to standard-surface --input coat_ior=1.5 -o out"));
   for (const char* file : {"car_BaseColor.png", "car_Coat_Opacity.png", "car_Coat_Roughness.png",
                            "car_Normal.png", "shirt_base_color.png"})
-    CHECK(std::filesystem::exists(session.path(std::string("out/") + file)));
+    CHECK(session.exists(std::string("out/") + file));
   // Fuzz of OpenPBR darkens what lies below it, so that the weight changes more than its own input.
-  CHECK(std::filesystem::exists(session.path("out/shirt_sheen_weight.png")));
+  CHECK(session.exists("out/shirt_sheen_weight.png"));
 }
 
 TEST_CASE("texremap translation: results of a folder are read again, also an index of refraction") {
   const Session session;
-  std::filesystem::create_directories(session.path("sets"));
-  const auto make = [&](const std::string& name, const std::vector<std::string>& channels) {
-    session.make("sets/" + name, test_spec(kSide, kSide, channels, OIIO::TypeUInt8), level);
-  };
-  make("car_BaseColor.png", {"R", "G", "B"});
-  make("car_Roughness.png", {"Y"});
-  make("car_Coat.png", {"Y"});
-  make("car_mine.png", {"Y"});
+  session.map("sets/car_BaseColor.png", kColor, level);
+  for (const std::string name : {"Roughness", "Coat", "mine"})
+    session.map("sets/car_" + name + ".png", kGrey, level);
   const Words words = "convert sets --from blender --to openpbr -o middle --json";
   const ProcessResult there = require_success(session.texremap(words));
   CHECK_THAT(there.output, Contains("middle/car_ior.exr") && Contains("car_mine.png"));
@@ -160,7 +146,7 @@ TEST_CASE("texremap translation: results of a folder are read again, also an ind
   // A file that a pattern names is recognised, and is used instead of the map of the set.
   const auto other = require_success(session.texremap(
       "convert sets --from blender --to openpbr -o other --json --input coat_weight=*_mine.png"));
-  CHECK_FALSE(std::filesystem::exists(session.path("other/car_Coat.png")));
+  CHECK_FALSE(session.exists("other/car_Coat.png"));
   CHECK_THAT(other.output, Contains("\"unrecognised_images\":[]"));
 }
 
@@ -171,7 +157,7 @@ TEST_CASE("texremap translation: numbers print the inputs that differ from their
       "--input clearcoat=1 --input ior=1.7";
   const ProcessResult text = require_success(session.texremap(words));
   CHECK_THAT(text.output, Contains("coat_weight 1\n") && Contains("specular_roughness 0.4\n"));
-  const auto json = nlohmann::json::parse(require_success(session.texremap(words + "--json")).output);
+  const auto json = session.json(words + "--json");
   materials::UsdPreviewSurface source;
   source.diffuseColor = {0.8f, 0.1f, 0.1f};
   source.roughness = 0.4f;
@@ -188,8 +174,8 @@ TEST_CASE("texremap translation: numbers print the inputs that differ from their
 
 TEST_CASE("texremap translation: OpenPBR packs its maps for an engine") {
   const Session session;
-  session.make("b.png", test_spec(kSide, kSide, {"R", "G", "B"}, OIIO::TypeUInt8), level);
-  session.make("r.png", test_spec(kSide, kSide, {"Y"}, OIIO::TypeUInt8), level);
+  session.map("b.png", kColor, level);
+  session.map("r.png", kGrey, level);
   require_success(
       session.texremap("convert --from openpbr --to unity --base-color b.png --roughness r.png --metallic 1 "
                        "-o out"));

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
 #include "reference/workflow_conversion.hpp"
@@ -21,11 +20,11 @@ constexpr int kWorkflowSize = 40;
 
 void write_colors(const Session& session, const std::string& name, const TexelFunction& texel,
                   OIIO::TypeDesc type = OIIO::TypeFloat, int size = kWorkflowSize) {
-  session.make(name, test_spec(size, size, {"R", "G", "B"}, type), texel);
+  session.map(name, kColor, texel, type, size);
 }
 void write_grey(const Session& session, const std::string& name, const TexelFunction& texel,
                 OIIO::TypeDesc type = OIIO::TypeFloat, int size = kWorkflowSize) {
-  session.make(name, test_spec(size, size, {"Y"}, type), texel);
+  session.map(name, kGrey, texel, type, size);
 }
 
 float base_color(int x, int y, int c) { return 0.05f + 0.9f * noise(x, y, c); }
@@ -227,7 +226,6 @@ TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request")
 TEST_CASE(
     "texremap workflows: two sets of one name, with maps of different names, are written side by side") {
   const Session session;
-  std::filesystem::create_directories(session.path("in/wood"));
   for (const std::string set : {"", "wood_"}) {
     write_colors(session, "in/wood/" + set + "basecolor.png", base_color, OIIO::TypeUInt8);
     write_grey(session, "in/wood/" + set + "metallic.png", metallic, OIIO::TypeUInt8);
@@ -238,7 +236,6 @@ TEST_CASE(
 
 TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate file") {
   const Session session;
-  std::filesystem::create_directories(session.path("sets"));
   write_colors(session, "sets/box_base_color.png", base_color, OIIO::TypeUInt8);
   write_colors(
       session, "sets/box_orm.png",

@@ -213,18 +213,6 @@ try_two_at_once() {
   judge "two copies of a part at once" twice
 }
 
-# sets_per_second N measures N simultaneous parts.
-sets_per_second() {
-  local -r start=$EPOCHREALTIME
-  local i
-  rm -rf speed
-  for ((i = 1; i <= $1; ++i)); do
-    "$texremap" convert --manifest sets.jsonl --part "$i/$1" "${convert[@]}" --threads 1 --quiet -o speed &
-  done
-  wait
-  awk "BEGIN { printf \"%.0f\", $sets / ($EPOCHREALTIME - $start) }"
-}
-
 milliseconds_since() { awk "BEGIN { printf \"%.0f\", 1000 * ($EPOCHREALTIME - $1) / $2 }"; }
 
 print_figures() {
@@ -236,8 +224,6 @@ print_figures() {
     start=$EPOCHREALTIME
     sbatch --wait --array=1-100 --output=/dev/null --wrap="$(printf '%q ' "${empty[@]}")" >/dev/null
     echo "an array of 100 of these under Slurm, four at once: $(milliseconds_since "$start" 100) ms a part"
-    echo "parts at once, a thread each: sets per second"
-    for n in 1 2 4; do echo "  $n: $(sets_per_second "$n")"; done
   fi
   echo "troubles:"
   sort "$farm/happened.txt" | uniq -c

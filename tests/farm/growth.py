@@ -3,8 +3,7 @@
 
 Prints time and memory of the index of a tree of sets and of a tree of assets, what a part costs besides its sets, how
 many files a set opens and renames (if strace is installed), sets per second against the number of simultaneous parts,
-and what one large set needs. With --assets, it prints processor time and memory for an OBJ file of 150 MB, a GLB file
-of 1 GB, a pair of images and many factors instead.
+and what one large set needs. With --assets, it prints processor time and memory for an OBJ file of 150 MB instead.
 
 Usage: tests/farm/growth.py TEXREMAP [--sets 100000] [--small 512] [--assets]
 """
@@ -97,40 +96,6 @@ def make_obj(path, side):
                 file.write(f"f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}\nf {b}/{b}/{b} {d}/{d}/{d} {c}/{c}/{c}\n")
 
 
-def make_glb(path, size):
-    """Writes one spec-gloss material with a large buffer of zeros, which needs no space on the disk."""
-    text = json.dumps({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
-                       "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5}}}],
-                       "buffers": [{"byteLength": size}]}).encode()
-    text += b" " * (-len(text) % 4)
-    with open(path, "wb") as file:
-        file.write(b"glTF" + b"".join(number.to_bytes(4, "little") for number in (2, 28 + len(text) + size, len(text))) + b"JSON")
-        file.write(text + size.to_bytes(4, "little") + b"BIN\0")
-        file.truncate(28 + len(text) + size)
-
-
-def make_pair(folder, size):
-    """Writes a spec-gloss material with two maps of smooth noise."""
-    folder.mkdir()
-    for name, channels, seed in (("diffuse", 3, 1), ("specular", 4, 2)):
-        subprocess.run(["oiiotool", "--pattern", f"noise:type=uniform:min=0.1:max=0.9:seed={seed}", f"{size // 4}x{size // 4}",
-                        str(channels), "--resize", f"{size}x{size}", "-d", "uint8", "-o", folder / f"{name}.png"], check=True)
-    (folder / "pair.gltf").write_text(json.dumps({
-        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
-        "images": [{"uri": "diffuse.png"}, {"uri": "specular.png"}], "textures": [{"source": 0}, {"source": 1}],
-        "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
-            "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 1}}}}]}))
-    return folder / "pair.gltf"
-
-
-def make_factors(path, count):
-    path.write_text(json.dumps({
-        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
-        "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
-            "diffuseFactor": [i / count, 0.3, 0.5, 1], "specularFactor": [0.04, i / count, 0.04], "glossinessFactor": 0.5}}}
-            for i in range(count)]}))
-
-
 def bytes_in(folder):
     return sum(path.stat().st_size for path in folder.rglob("*.exr"))
 
@@ -185,24 +150,14 @@ def main():
 
 
 def report_assets(texremap, scratch):
-    def convert(name, file, result, *options):
+    def convert(name, file, result):
         _, usage, _ = run(texremap, "convert", file, "--to", "gltf", "-o", scratch / "result" / result, "--threads", "1", "--quiet",
-                          "--force", *options)
+                          "--force")
         print(f"{name}: {usage.ru_utime + usage.ru_stime:.2f} s of processor, {usage.ru_maxrss / 1000:.0f} MB")
 
     make_obj(scratch / "grid.obj", 850)
     convert("an OBJ file of 150 MB to .glb", scratch / "grid.obj", "grid.glb")
     convert("an OBJ file of 150 MB to .gltf", scratch / "grid.obj", "grid.gltf")
-    make_glb(scratch / "large.glb", 10**9)
-    convert("a GLB file of 1 GB", scratch / "large.glb", "large.glb")
-    (scratch / "result/large.glb").unlink()
-    make_factors(scratch / "factors.gltf", 40)
-    convert("40 factor materials", scratch / "factors.gltf", "factors.gltf")
-    if shutil.which("oiiotool") is None:
-        return
-    pair = make_pair(scratch / "pair", 2048)
-    for options in ((), ("--compression", "1"), ("--compression", "9")):
-        convert(" ".join(("a pair of 2048 x 2048", *options)), pair, "pair.gltf", *options)
 
 
 def report(texremap, scratch, options):

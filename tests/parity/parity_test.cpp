@@ -171,22 +171,10 @@ std::vector<float> texels(const Fit& fit) {
     rows.push_back({high * share(random), top * share(random), top * share(random), top * share(random)});
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
-  const float edges[] = {0.0f,
-                         -0.0f,
-                         low,
-                         high,
-                         std::nextafter(low, 0.0f),
-                         std::nextafter(high, 2.0f * high),
-                         top,
-                         std::nextafter(top, 2.0f),
-                         1e-42f,
-                         -1e-42f,
-                         3.4e38f,
-                         infinity,
-                         -infinity,
-                         nan,
-                         -nan,
-                         -1.0f};
+  const float below = std::nextafter(low, 0.0f), above = std::nextafter(high, 2.0f * high),
+              brighter = std::nextafter(top, 2.0f);
+  const float edges[] = {0.0f,   -0.0f,   low,     high,     below,     above, top,  brighter,
+                         1e-42f, -1e-42f, 3.4e38f, infinity, -infinity, nan,   -nan, -1.0f};
   // In floats, this product overflows, so it differs from the product of doubles. Such texels are left out.
   for (const float width : edges)
     for (const float channel : edges)

@@ -54,6 +54,18 @@ inline std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
                                      StageList{std::make_shared<InterpretedStage>(std::move(fit))});
 }
 
+// Returns roughness, red, green and blue of one converted texel; `outside`, if given, is how many were
+// outside (0 or 1).
+inline std::array<float, 4> converted_texel(const Converter& converter, float roughness,
+                                            std::array<float, 3> specular, std::size_t* outside = nullptr) {
+  std::array<float, 4> result{};
+  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
+  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
+  const std::size_t count = converter.convert(1, &roughness, in, &result[0], out);
+  if (outside != nullptr) *outside = count;
+  return result;
+}
+
 // Returns the fit with its converter.
 inline Fit lowered_fit(Fit fit) {
   add_converter(&fit);

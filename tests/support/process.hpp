@@ -37,8 +37,8 @@ struct Words : std::vector<std::string> {
 };
 
 struct ProcessLimits {
-  std::filesystem::path folder;      // the working folder, if it differs from the test's
-  std::optional<rlim_t> file_bytes;  // limit as by `ulimit -f`: writing more fails
+  std::filesystem::path folder = {};      // the working folder, if it differs from the test's
+  std::optional<rlim_t> file_bytes = {};  // limit as by `ulimit -f`: writing more fails
   bool keeps_permissions = false;  // if true, permissions of files apply to it, even if the test runs as root
 };
 
@@ -89,6 +89,13 @@ inline ProcessResult require_success(ProcessResult result) {
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   return result;
+}
+
+// Returns how often `text` holds `part`.
+inline std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
 }
 
 }  // namespace remap

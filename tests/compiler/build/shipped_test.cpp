@@ -1,4 +1,5 @@
-// This file tests the converters that ship: it compares the figures on their cards with their tables.
+// This file tests the converters that ship: it compares the figures on their cards with their tables. The
+// recorded excess of a fit is used as long as the fit has not changed.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,11 +12,14 @@
 #include "build/fit_folder.hpp"
 #include "build/report.hpp"
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "fit/fit_table.hpp"
 #include "lower/chain.hpp"
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
+#include "remap/error.hpp"
 #include "support/campaign.hpp"
+#include "support/temporary_folder.hpp"
 #include "table/regression.hpp"
 #include "table/table.hpp"
 
@@ -282,4 +286,27 @@ TEST_CASE("shipped tables: the manifest accepts the light of those that need it,
     accepted += item.accept_light ? 1 : 0;
   }
   CHECK(accepted == 2);
+}
+
+TEST_CASE("reach records: are kept for fits that have not changed since") {
+  const TemporaryFolder folder;
+  CHECK(read_reach(folder.path()).empty());
+  for (const std::string id : {"a_to_b", "b_to_a"}) write_file(folder.path() / (id + ".json"), id);
+  ReachRecords records;
+  records["a_to_b"] = {file_sha256(folder.path() / "a_to_b.json"), 144, 1.25e-4, 0.0123, 0.5, 0.75};
+  records["b_to_a"] = {file_sha256(folder.path() / "b_to_a.json"), 144, -2e-5, 0.004, 1.0, 0.04};
+  write_reach(folder.path(), records);
+  const ReachRecords again = current_reach(folder.path());
+  REQUIRE(again.size() == 2);
+  CHECK(again.at("a_to_b").fit == records["a_to_b"].fit);
+  CHECK(again.at("a_to_b").materials == 144);
+  CHECK(again.at("a_to_b").mean_excess == 1.25e-4);
+  CHECK(again.at("a_to_b").largest_excess == 0.0123);
+  CHECK(again.at("b_to_a").alpha == 1.0);
+  CHECK(again.at("b_to_a").specular == 0.04);
+  write_file(folder.path() / "a_to_b.json", "another fit");
+  CHECK(current_reach(folder.path()).size() == 1);
+  CHECK(read_reach(folder.path()).size() == 2);
+  write_file(folder.path() / kReachName, "converter,fit\na,b\n");
+  CHECK_THROWS_AS(read_reach(folder.path()), Error);
 }

@@ -1,4 +1,4 @@
-// This file tests fit files: exact round trips, and every error with its place.
+// This file tests fit files: exact round trips, size limits, and every error with its place.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -188,4 +188,139 @@ TEST_CASE("fit file: ids that C++ or a file system uses itself are refused, and 
     } catch (const Error& error) {
       CHECK(std::string(error.what()).size() < 250);
     }
+}
+
+namespace {
+
+WorkflowFit example(const WorkflowFormula& formula) {
+  WorkflowFit fit{"a_to_b", {}, {}, {"A remark."}, "0.1"};
+  fit.conversion.specular = {"a", DiffuseConvention::kScaled, RoughnessEncoding::kGlossiness};
+  fit.conversion.metallic = {"b", 0.05, DiffuseConvention::kScaled, RoughnessEncoding::kAlpha};
+  fit.conversion.formula = formula;
+  return fit;
+}
+
+}  // namespace
+
+TEST_CASE("workflow fit: every formula returns from its file") {
+  for (const WorkflowFormula& formula :
+       {WorkflowFormula{ClosedFormula::kEquation2}, WorkflowFormula{Projection{1e-5}},
+        WorkflowFormula{ClosedFormula::kEquation3}, WorkflowFormula{ClosedFormula::kEquation3ByAlbedo},
+        WorkflowFormula{ClosedFormula::kKhronos}}) {
+    const WorkflowFit fit = example(formula);
+    const AnyFit read = any_fit_from_json(fit_to_json(fit), "x");
+    REQUIRE(std::holds_alternative<WorkflowFit>(read));
+    CHECK(std::get<WorkflowFit>(read) == fit);
+    CHECK(fit_id(read) == "a_to_b");
+  }
+}
+
+TEST_CASE("workflow fit: a file that is wrong is refused with the place") {
+  const std::string good = fit_to_json(example(Projection{1e-5}));
+  const auto refuses = [&](const std::string& part, const std::string& other, const std::string& message) {
+    CHECK_THROWS_WITH(any_fit_from_json(replaced(good, part, other), "f.json"),
+                      Catch::StartsWith("f.json") && Catch::Contains(message));
+  };
+  refuses("\"projection\"", "\"guess\"", ".formula: expected equation-2, projection");
+  refuses("\"prior\"", "\"prio\"", "has no field \"prior\"");
+  refuses("1e-05", "-1", "prior -1 is out of range (0");
+  refuses("0.05", "1.5", "dielectric F0 1.5 is out of range (0 to 0.9");
+  refuses("\"scaled\"", "\"linear\"", "source.diffuse: expected plain or scaled, found \"linear\"");
+  refuses("\"workflow\": \"specular\"", "\"workflow\": \"metallic\"", "expected \"specular\" on this side");
+  refuses("\"glossiness\"", "\"exponent\"", "choose roughness, glossiness or alpha");
+  refuses("\"a_to_b\"", "\"a to b\"", "expected at most 128 letters");
+  refuses("\"version\": 4", "\"version\": 9", "format version 9");
+}
+
+TEST_CASE("workflow fit: where width and specular are expected the error says what can be done") {
+  CHECK_THROWS_WITH(
+      fit_from_json(fit_to_json(example(ClosedFormula::kEquation2)), "f.json"),
+      Catch::StartsWith("f.json: converts whole materials") && Catch::Contains("remapc list, show and emit"));
+}
+
+namespace {
+
+// Returns the message of oversize() for a fit with this mapping. Checks that writing this fit fails with the
+// same message, or succeeds if there is none.
+std::string refusal(const MappingKind& mapping) {
+  Fit fit = example_fit();
+  fit.mapping = mapping;
+  const std::string fault = oversize(fit);
+  if (fault.empty())
+    CHECK(fit_from_json(fit_to_json(fit), "x.json") == fit);
+  else
+    CHECK_THROWS_WITH(fit_to_json(fit), fit.id + ": " + fault);
+  return fault;
+}
+
+Parametric parametric(std::size_t rows, std::size_t columns, std::size_t terms) {
+  return {std::vector<std::vector<double>>(rows, std::vector<double>(columns, 0.01)),
+          std::vector<SpecularTerm>(terms)};
+}
+
+Svr svr(std::size_t vectors) {
+  const KernelExpansion expansion{
+      {{}}, {}, 1.0, 0.0, std::vector<double>(vectors, 0.5), std::vector<double>(vectors, 0.1)};
+  return {expansion, expansion};
+}
+
+Mlp mlp(std::size_t layers, std::size_t units) {
+  Network network{Activation::kTanh, {{}}, {{}}, {}};
+  for (std::size_t i = 0, width = 1; i < layers; ++i) {
+    const std::size_t own = i + 1 < layers ? units : 1;
+    network.layers.push_back({width, std::vector<double>(width * own, 0.1), std::vector<double>(own, 0.1)});
+    width = own;
+  }
+  return {network, network};
+}
+
+}  // namespace
+
+TEST_CASE("limits: a fit at its limit is written and read, one beyond it is refused with both numbers") {
+  CHECK(refusal(parametric(kMostSpecularPowers, kMostAlphaPowers, kMostTerms)).empty());
+  CHECK(refusal(parametric(17, 1, 1)) ==
+        "has 17 powers of specular in its roughness; at most 16 are possible");
+  CHECK(refusal(parametric(1000, 1000, 1)).starts_with("has 1000 powers of specular"));
+  CHECK(refusal(parametric(1, 100'000, 1)) ==
+        "has 100000 powers of alpha in its roughness; at most 32 are possible");
+  CHECK(refusal(parametric(1, 1, 65)) == "has 65 terms of specular; at most 64 are possible");
+  CHECK(refusal(svr(kMostVectors)).empty());
+  CHECK(refusal(svr(4097)) == "has 4097 support vectors; at most 4096 are possible");
+  CHECK(refusal(mlp(kMostLayers, 60)).empty());
+  CHECK(refusal(mlp(3000, 1)) == "has 3000 layers; at most 6 are possible");
+  CHECK(refusal(mlp(3, 150)) == "has 23105 numbers in a network; at most 20000 are possible");
+  CompactForm form;
+  form.alpha.resize(16, {1.0f});
+  CHECK(refusal(form).empty());
+  form.alpha.resize(17, {1.0f});
+  CHECK(refusal(form) == "has 17 powers of t; at most 16 are possible");
+  form.alpha = {std::vector<float>(33, 1.0f)};
+  CHECK(refusal(form) == "has 33 powers of alpha; at most 32 are possible");
+}
+
+TEST_CASE("limits: domains") {
+  Fit fit = example_fit();
+  fit.domain.specular.max = kLargestDomain;
+  CHECK(oversize(fit).empty());
+  fit.domain.alpha.max = 1e308;
+  CHECK(oversize(fit) == "has a domain to 1e+308; at most 1000 is possible");
+}
+
+TEST_CASE("limits: remarks and other lines of a fit file") {
+  Fit fit = example_fit();
+  const auto message = [&] {
+    try {
+      fit_from_json(fit_to_json(fit), "x.json");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  fit.remarks = {std::string(10'001, 'x')};
+  CHECK(message() == "x.json: remarks[0]: has a text of 10001 bytes, but at most 10000 can be read");
+  fit.remarks.assign(1001, "x");
+  CHECK(message() == "x.json: remarks: has 1001 entries, but at most 1000 can be read");
+  fit = example_fit();
+  for (int i = 0; i <= 1000; ++i) fit.method[std::to_string(i)] = "x";
+  CHECK(message() == "x.json: method: has 1001 entries, but at most 1000 can be read");
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 
 using namespace remap;
 
@@ -23,12 +24,7 @@ MaterialLibrary library_of(const std::string& statements,
 }
 
 std::string refusal(const std::string& statements, const std::string& functions = "f0(n) = n\n") {
-  try {
-    library_of(statements, functions);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing";
+  return error_of([&] { library_of(statements, functions); });
 }
 
 }  // namespace

@@ -104,20 +104,18 @@ TEST_CASE("sweep: diffuse is matched apart from specular") {
 }
 
 TEST_CASE("probe: pictures distinguish a scale from Schlick's Fresnel") {
-  const auto renderer = make_builtin_renderer();
-  CHECK(probe(*renderer, "mitsuba/ward").law == SpecularLaw::kProportional);
-  CHECK(probe(*renderer, "mitsuba/ggx").law == SpecularLaw::kAffine);
-  CHECK_FALSE(probe(*renderer, "mitsuba/ggx").proportional());
+  CHECK(probe(builtin_renderer(), "mitsuba/ward").law == SpecularLaw::kProportional);
+  CHECK(probe(builtin_renderer(), "mitsuba/ggx").law == SpecularLaw::kAffine);
+  CHECK_FALSE(probe(builtin_renderer(), "mitsuba/ggx").proportional());
 }
 
 TEST_CASE("probe: the laws of the built-in models with indices and knees") {
-  const auto renderer = make_builtin_renderer();
   for (const std::string name : {"as", "ggx", "beckmann"}) {
-    CHECK(probe(*renderer, "mitsuba/" + name + "-ior").law == SpecularLaw::kIor);
+    CHECK(probe(builtin_renderer(), "mitsuba/" + name + "-ior").law == SpecularLaw::kIor);
     // The shape of exact Fresnel depends on the index, so no coordinate is linear.
-    CHECK(probe(*renderer, "mitsuba/" + name + "-dielectric").law == SpecularLaw::kOther);
+    CHECK(probe(builtin_renderer(), "mitsuba/" + name + "-dielectric").law == SpecularLaw::kOther);
   }
-  const SpecularResponse trimmed = probe(*renderer, "mitsuba/ward-conserving");
+  const SpecularResponse trimmed = probe(builtin_renderer(), "mitsuba/ward-conserving");
   CHECK(trimmed.law == SpecularLaw::kClamped);
   CHECK(trimmed.knee == Approx(1.0).epsilon(1e-6));
 }
@@ -239,9 +237,9 @@ TEST_CASE("sweep: a target without a known law that cannot match gets the result
 }
 
 TEST_CASE("sweep: exact Fresnel as a target is matched in its index") {
-  const auto renderer = make_builtin_renderer();
-  const Table table = sweep(*renderer, sweep_options("mitsuba/as-dielectric", "mitsuba/as-dielectric",
-                                                     "natural", {{0.2, 1.0}, {0.2, 1.5}, {0.4, 2.2}}, 48));
+  const Table table =
+      sweep(builtin_renderer(), sweep_options("mitsuba/as-dielectric", "mitsuba/as-dielectric", "natural",
+                                              {{0.2, 1.0}, {0.2, 1.5}, {0.4, 2.2}}, 48));
   CHECK(table.target.specular == "ior");
   CHECK(table.rows[0].status == RowStatus::kFlat);
   CHECK(table.rows[0].specular2 == 1.0);

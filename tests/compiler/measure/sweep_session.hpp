@@ -1,12 +1,18 @@
-// This file holds what the tests of sweeps share: options with defaults, and a sweep.
+// This file holds what the tests of sweeps share: the renderer, options with defaults, and a sweep.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "measure/sweep.hpp"
 
 namespace remap {
+
+inline const Renderer& builtin_renderer() {
+  static const std::unique_ptr<Renderer> renderer = make_builtin_renderer();
+  return *renderer;
+}
 
 inline SweepOptions sweep_options(const std::string& source, const std::string& target,
                                   const std::string& objective, std::vector<MappedTexel> samples,

@@ -10,6 +10,7 @@
 
 #include "lower/fit_file.hpp"
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/quadrature.hpp"
@@ -279,35 +280,27 @@ TEST_CASE("warp: few strokes do not determine all directions, and some contradic
 TEST_CASE("warp: invalid input is refused", "[warp]") {
   const WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
-  const auto message = [](const auto& call) {
-    try {
-      call();
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   using Catch::Contains;
-  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {}); }),
+  CHECK_THAT(error_of([&] { fit_warp(set.source, set.target, {}); }),
              Contains("at least one pair of strokes"));
-  CHECK_THAT(message([&] {
+  CHECK_THAT(error_of([&] {
                fit_warp(set.source, set.target, {{{}, {1}}});
              }),
              Contains("stroke 1: the stroke marks no texel"));
-  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {{{1}, {99999}}}); }), Contains("texel 99999"));
-  CHECK_THAT(message([&] {
+  CHECK_THAT(error_of([&] { fit_warp(set.source, set.target, {{{1}, {99999}}}); }), Contains("texel 99999"));
+  CHECK_THAT(error_of([&] {
                fit_warp(set.source, set.target, {{{1, 2}, {1}}, {{2}, {7}}});
              }),
              Contains("stroke 2: lies within stroke 1"));
   WarpMaterial black = set.source, plain = set.target, torn = set.source;
   for (auto& texel : torn.texels) texel.fill(std::numeric_limits<float>::quiet_NaN());
-  CHECK_THAT(message([&] { fit_warp(torn, set.target, strokes); }),
+  CHECK_THAT(error_of([&] { fit_warp(torn, set.target, strokes); }),
              Contains("leaf source: contains no texel with finite values"));
   for (auto& texel : black.texels) texel = {0, 0, 0, 0, 0, 0, 0.3f};
   for (auto& texel : plain.texels) texel = plain.texels[0];
-  CHECK_THAT(message([&] { fit_warp(black, set.target, strokes); }),
+  CHECK_THAT(error_of([&] { fit_warp(black, set.target, strokes); }),
              Contains("leaf source: all texels look the same"));
-  CHECK_THAT(message([&] { fit_warp(set.source, plain, strokes); }),
+  CHECK_THAT(error_of([&] { fit_warp(set.source, plain, strokes); }),
              Contains("leaf template: all texels look the same"));
 }
 

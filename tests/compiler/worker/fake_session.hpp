@@ -15,6 +15,7 @@
 
 #include "core/files.hpp"
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "worker/worker_renderer.hpp"
 
@@ -80,16 +81,10 @@ inline Material fake_material(double alpha = 0.2) {
 
 inline constexpr Scene kSmallScene{32, 1, {}};
 
-// Returns the message of the kInput error that `work` throws. An error of another kind fails the test.
+// Returns the message of the kInput error that `work` throws.
 template <typename Work>
 std::string input_error(const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::kInput);
-    return error.what();
-  }
-  return "no error";
+  return error_of(work, ErrorKind::kInput);
 }
 
 }  // namespace remap

@@ -14,11 +14,6 @@
 
 namespace remap {
 
-inline constexpr AssetOptions kCoreOptions = {DielectricExtensions::kKept, kCleanPrior,
-                                              InstructionSet::kBaseline, false};
-inline constexpr AssetOptions kExactOptions = {DielectricExtensions::kWritten, kCleanPrior,
-                                               InstructionSet::kBaseline, false};
-
 inline ImagePixels random_pixels(std::size_t channels, std::uint32_t seed,
                                  PixelType type = PixelType::kUint8) {
   ImagePixels pixels{6, 5, channels, type, {}};
@@ -70,6 +65,12 @@ inline std::string textured(const std::string& members) {
 }
 
 inline const std::string kBoth = R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1})";
+
+// Returns a container with `other` instead of the first `part` of its JSON.
+inline std::string with_json(const std::string& bytes, const std::string& part, const std::string& other) {
+  const GltfContainer container = read_container(MemorySource(bytes), "before");
+  return glb_bytes(replaced(container.json, part, other), bytes.substr(container.chunks.front().begin));
+}
 
 // A Reread holds a converted container, its JSON, and its images.
 struct Reread {

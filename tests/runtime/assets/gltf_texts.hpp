@@ -14,8 +14,19 @@
 #include "assets/gltf/gltf_container.hpp"
 #include "core/errors.hpp"
 #include "core/json_spans.hpp"
+#include "support/replaced.hpp"
 
 namespace remap {
+
+inline constexpr AssetOptions kCoreOptions = {.instructions = InstructionSet::kBaseline};
+inline constexpr AssetOptions kExactOptions = {.extensions = DielectricExtensions::kWritten,
+                                               .instructions = InstructionSet::kBaseline};
+inline constexpr AssetOptions kFolding = {.extensions = DielectricExtensions::kFolded,
+                                          .instructions = InstructionSet::kBaseline};
+inline constexpr AssetOptions kToSpecGloss = {.instructions = InstructionSet::kBaseline,
+                                              .target = AssetTarget::kSpecGloss};
+inline constexpr AssetOptions kCompacting = {.instructions = InstructionSet::kBaseline, .compacts = true};
+inline constexpr AssetOptions kResampling = {.instructions = InstructionSet::kBaseline, .resamples = true};
 
 // Returns a file of one material with this spec-gloss object and more members.
 inline std::string specgloss_text(const std::string& extension, const std::string& more = "") {
@@ -72,6 +83,7 @@ inline bool may_grow(const std::string& key) {
 class PlainCodec final : public ImageCodec {
  public:
   ImagePixels decode(std::string_view bytes, const std::string& place) const override {
+    if (bytes.starts_with("\xff\xd8")) bytes.remove_prefix(4);
     if (bytes.size() < 5 || !bytes.starts_with("P")) throw input_error(place + ": is no image");
     const auto number = [&](std::size_t at) {
       return static_cast<std::size_t>(static_cast<std::uint8_t>(bytes[at]));
@@ -91,7 +103,7 @@ class PlainCodec final : public ImageCodec {
     for (const std::byte byte : pixels.bytes) bytes += static_cast<char>(byte);
     return bytes;
   }
-  // Returns bytes that begin like a JPEG file. They cannot be read again.
+  // Returns bytes that begin like a JPEG file, with the quality.
   std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
     return "\xff\xd8" + std::to_string(quality) + encode_png(pixels, kUsualPngLevel);
   }

@@ -57,16 +57,6 @@ MapConversion conversion(Buffer& from, Buffer& to, bool flipped = false) {
   return maps;
 }
 
-std::array<float, 4> converted(const Converter& converter, float roughness, std::array<float, 3> specular,
-                               std::size_t* outside = nullptr) {
-  std::array<float, 4> result{};
-  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
-  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
-  const std::size_t count = converter.convert(1, &roughness, in, &result[0], out);
-  if (outside != nullptr) *outside = count;
-  return result;
-}
-
 }  // namespace
 
 TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any number of threads") {
@@ -81,8 +71,8 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
   CHECK(statistics.texel_count == kWidth * kHeight);
   for (std::size_t y = 0; y < kHeight; ++y)
     for (std::size_t x = 0; x < kWidth; ++x) {
-      const auto expected =
-          converted(*converter, copy.at(x, y, 0), {copy.at(x, y, 1), copy.at(x, y, 2), copy.at(x, y, 3)});
+      const auto expected = converted_texel(*converter, copy.at(x, y, 0),
+                                            {copy.at(x, y, 1), copy.at(x, y, 2), copy.at(x, y, 3)});
       for (std::size_t c = 0; c < 4; ++c) REQUIRE(result.at(x, y, c) == expected[c]);
       for (std::size_t c = 4; c < size; ++c)
         REQUIRE(result.at(x, y, c) == (in_place ? copy.at(x, y, c) : -7.0f));
@@ -177,8 +167,8 @@ TEST_CASE("convert_maps: the mask marks each texel that the converter counts as 
   for (std::size_t y = 0; y < kHeight; ++y)
     for (std::size_t x = 0; x < kWidth; ++x) {
       std::size_t outside = 0;
-      converted(*converter, from.at(x, y, 0), {from.at(x, y, 1), from.at(x, y, 2), from.at(x, y, 3)},
-                &outside);
+      converted_texel(*converter, from.at(x, y, 0), {from.at(x, y, 1), from.at(x, y, 2), from.at(x, y, 3)},
+                      &outside);
       REQUIRE(mask[y * kWidth + x] == static_cast<float>(outside));
       marked += outside;
     }
@@ -233,7 +223,7 @@ TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
     maps.source_convention = maps.target_convention = encoding;
     convert_maps(*converter, maps);
     const float expected =
-        converted(*converter, static_cast<float>(from_alpha(own, 0.25)), {0.3f, 0.3f, 0.3f})[0];
+        converted_texel(*converter, static_cast<float>(from_alpha(own, 0.25)), {0.3f, 0.3f, 0.3f})[0];
     CHECK(to_alpha(encoding, static_cast<double>(result)) ==
           Approx(to_alpha(target, static_cast<double>(expected))).epsilon(1e-5));
   }
@@ -260,7 +250,7 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
   run(plain, 0, kSide, false);
   for (std::size_t first = 0; first < kSide; first += 64) run(parts, first, 64, true);
   CHECK(whole == parts);
-  const double exact = 255.0 * static_cast<double>(converted(*converter, 0.3f, {0.3f, 0.3f, 0.3f})[1]);
+  const double exact = 255.0 * static_cast<double>(converted_texel(*converter, 0.3f, {0.3f, 0.3f, 0.3f})[1]);
   const auto mean = [](const std::vector<std::uint8_t>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   };

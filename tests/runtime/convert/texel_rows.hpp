@@ -22,23 +22,10 @@ struct TestTexels {
 inline TestTexels odd_and_random_texels(const ConverterInfo& info, std::size_t random_count) {
   const auto odd_values = [](const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
-    return std::vector<float>{low,
-                              high,
-                              std::nextafter(low, -1.0f),
-                              std::nextafter(high, 2.0f * high + 1.0f),
-                              0.5f * (low + high),
-                              0.0f,
-                              -0.0f,
-                              -1.0f,
-                              1e-40f,
-                              10.0f * high,
-                              1e20f,
-                              3e38f,
-                              -3e38f,
-                              INFINITY,
-                              -INFINITY,
-                              NAN,
-                              -NAN};
+    const float below = std::nextafter(low, -1.0f), above = std::nextafter(high, 2.0f * high + 1.0f),
+                middle = 0.5f * (low + high), far = 10.0f * high, inf = INFINITY, nan = NAN;
+    return std::vector<float>{low, high,  below, above,  middle, 0.0f, -0.0f, -1.0f, 1e-40f,
+                              far, 1e20f, 3e38f, -3e38f, inf,    -inf, nan,   -nan};
   };
   TestTexels rows;
   const auto add = [&rows](float roughness, float red, float green, float blue) {

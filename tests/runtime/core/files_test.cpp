@@ -12,6 +12,7 @@
 
 #include "core/owner_tag.hpp"
 #include "remap/error.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace remap;
@@ -40,12 +41,7 @@ namespace {
 template <typename Work>
 std::string refusal(Work work) {
   ::alarm(2);
-  std::string message;
-  try {
-    work();
-  } catch (const Error& error) {
-    message = error.what();
-  }
+  const std::string message = error_of(work);
   ::alarm(0);
   return message;
 }

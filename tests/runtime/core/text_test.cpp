@@ -12,6 +12,7 @@
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
+#include "support/error_of.hpp"
 
 using namespace remap;
 
@@ -108,12 +109,8 @@ TEST_CASE("parse JSON: nested deeper than 100 levels is refused, whatever the de
 }
 
 TEST_CASE("parse JSON: a message does not repeat a text without end") {
-  try {
-    parse_json("[\"" + std::string(1'000'000, 'x'), "x.json");
-    FAIL("accepted");
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).size() < 400);
-  }
+  const std::string message = error_of([] { parse_json("[\"" + std::string(1'000'000, 'x'), "x.json"); });
+  CHECK((message.size() > 0 && message.size() < 400));
   CHECK_THROWS_WITH(parse_json(std::string(kLongestJson + 1, ' '), "x.json"),
                     "x.json: has 64 MB of JSON; at most 64 MB can be read");
 }

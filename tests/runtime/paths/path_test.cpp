@@ -11,6 +11,7 @@
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/named_converters.hpp"
+#include "support/error_of.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;
@@ -39,13 +40,7 @@ Names least(const PathConverters& converters, const PathRequest& request) {
 }
 
 std::string refusal(const PathConverters& converters, const PathRequest& request) {
-  try {
-    converters.graph().find_paths(request);
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::kUsage);
-    return error.what();
-  }
-  return "none";
+  return error_of([&] { converters.graph().find_paths(request); }, ErrorKind::kUsage);
 }
 
 // Collects every path of `request` by walking on from its start in every allowed direction.

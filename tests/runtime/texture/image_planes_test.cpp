@@ -1,18 +1,39 @@
-// This file tests files of several parts and of several mip levels.
+// This file tests files of several parts and of several mip levels, copies of normal maps with inverted
+// green, and damaged files, which are cut short or have flipped bits. Each damaged file is converted or
+// refused with a reason. It must not crash or hang, and a refused file must not appear under its final
+// name. Sanitizers check this, too.
+#include <fstream>
+#include <iostream>
+#include <random>
+
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
 
+#include "core/files.hpp"
 #include "remap/error.hpp"
+#include "support/campaign.hpp"
+#include "support/error_of.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
+#include "texture/image_library.hpp"
+#include "texture/normal_green.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
+
+TEST_CASE("image library: it can be loaded, and the program can catch its errors") {
+  CHECK(&image_library() == &image_library());
+  const TemporaryFolder folder;
+  const auto text = folder.path() / "text.png";
+  write_file(text, "no image");
+  CHECK_THAT(error_of([&] { (void)image_library().open(text, 0); }, ErrorKind::kInput),
+             Contains("text.png: cannot be read as an image"));
+}
 
 namespace {
 
@@ -63,15 +84,6 @@ void write_levels(const fs::path& path, const std::vector<std::string>& channels
   config.attribute("maketx:fileformatname", path.extension() == ".exr" ? "openexr" : "tiff");
   REQUIRE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, plain.string(), path.string(),
                                            config));
-}
-
-std::array<float, 4> converted_texel(const Converter& converter, float roughness,
-                                     std::array<float, 3> specular) {
-  std::array<float, 4> result{};
-  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
-  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
-  converter.convert(1, &roughness, in, &result[0], out);
-  return result;
 }
 
 MapStatistics convert(const std::string& roughness, const std::string& specular, const fs::path& folder,
@@ -172,4 +184,141 @@ TEST_CASE("image planes: parts with parameters are converted, the others are unc
       REQUIRE(base_out.at(x, y, 3) == base.at(x, y, 3));
     }
   if (is_exr) CHECK(base_out.spec.get_string_attribute("oiio:subimagename") == "base");
+}
+
+TEST_CASE("normal green: names say it by words, and have a name for the other way") {
+  const std::vector<std::pair<std::string, std::string>> pairs = {
+      {"wood_nor_gl_4k.exr", "wood_nor_dx_4k.exr"},
+      {"Wood_4K-PNG_NormalGL.png", "Wood_4K-PNG_NormalDX.png"},
+      {"x_Normal_OpenGL.png", "x_Normal_DirectX.png"},
+      {"x_normal_opengl.1001.png", "x_normal_directx.1001.png"}};
+  for (const auto& [up, down] : pairs) {
+    CHECK(stated_green(up) == NormalGreen::kUp);
+    CHECK(turned_name(up) == down);
+  }
+  CHECK(stated_green("wood_nor_dx_4k.exr") == NormalGreen::kDown);
+  CHECK(turned_name("wood_nor_dx_4k.exr") == "wood_nor_gl_4k.exr");
+  for (const std::string silent :
+       {"wood_normal.png", "x_glass_normal.png", "angle_nor.png", "dxf_normal.png"})
+    CHECK_FALSE(stated_green(silent));
+}
+
+TEST_CASE("normal green: an inverted copy differs only in green, for every pixel type") {
+  const TemporaryFolder folder;
+  const auto type = GENERATE(OIIO::TypeDesc(OIIO::TypeDesc::UINT8), OIIO::TypeDesc(OIIO::TypeDesc::UINT16),
+                             OIIO::TypeDesc(OIIO::TypeDesc::HALF));
+  const std::string end = type.is_floating_point() ? ".exr" : ".png";
+  const auto from = folder.path() / ("nor_gl" + end), to = folder.path() / "made" / ("nor_dx" + end);
+  write_image(from, test_spec(70, 130, {"R", "G", "B"}, type), noise);
+  const TestImage before = read_image(from);
+  {
+    const auto copy = turned_copy(std::make_shared<const InputFile>(from), to);
+    CHECK_FALSE(std::filesystem::exists(to));
+    copy->commit(Flush::kNo);
+  }
+  const TestImage after = read_image(to);
+  REQUIRE(after.values.size() == before.values.size());
+  const float step = type == OIIO::TypeDesc(OIIO::TypeDesc::HALF) ? 1e-3f : 1e-6f;
+  for (std::size_t i = 0; i < after.values.size(); ++i)
+    if (i % 3 == 1)
+      REQUIRE(after.values[i] == Approx(1.0f - before.values[i]).margin(step));
+    else
+      REQUIRE(after.values[i] == before.values[i]);
+}
+
+TEST_CASE("normal green: values with a sign change it") {
+  const TemporaryFolder folder;
+  const auto from = folder.path() / "n.exr", to = folder.path() / "m.exr";
+  const auto texel = [](int x, int y, int channel) { return 2.0f * noise(x, y, channel) - 1.0f; };
+  write_image(from, test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeFloat), texel);
+  turned_copy(std::make_shared<const InputFile>(from), to)->commit(Flush::kNo);
+  CHECK(read_image(to).at(3, 5, 1) == -texel(3, 5, 1));
+  CHECK(read_image(to).at(3, 5, 2) == texel(3, 5, 2));
+}
+
+TEST_CASE("normal green: a map without green cannot be turned, and leaves nothing behind") {
+  const TemporaryFolder folder;
+  write_image(folder.path() / "n.png", test_spec(8, 8, {"Y"}, OIIO::TypeUInt8), noise);
+  CHECK_THROWS_WITH(
+      turned_copy(std::make_shared<const InputFile>(folder.path() / "n.png"), folder.path() / "m.png"),
+      Contains("has no green channel to invert"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "m.png"));
+}
+
+namespace {
+
+struct Format {
+  std::string extension;
+  std::string compression;
+  OIIO::TypeDesc type;
+  int tile = 0;
+};
+
+std::vector<Format> formats() {
+  return {
+      {"exr", "none", OIIO::TypeHalf},  {"exr", "zip", OIIO::TypeHalf},      {"exr", "piz", OIIO::TypeHalf},
+      {"exr", "dwaa", OIIO::TypeHalf},  {"exr", "zip", OIIO::TypeFloat, 32}, {"tif", "none", OIIO::TypeUInt8},
+      {"tif", "zip", OIIO::TypeUInt16}, {"tif", "lzw", OIIO::TypeUInt8, 32}, {"png", "", OIIO::TypeUInt8},
+      {"jpg", "", OIIO::TypeUInt8},     {"tga", "", OIIO::TypeUInt8},        {"bmp", "", OIIO::TypeUInt8},
+      {"hdr", "", OIIO::TypeFloat}};
+}
+
+// A fifth of the mutations cut the file. Half of the others flip bits in the header.
+std::string mutated(std::string bytes, int number) {
+  std::mt19937 random(static_cast<unsigned>(number));
+  const auto below = [&](std::size_t limit) { return static_cast<std::size_t>(random()) % limit; };
+  if (number % 5 == 0) {
+    bytes.resize(below(bytes.size()));
+    return bytes;
+  }
+  for (std::size_t flips = 1 + below(4); flips-- > 0;) {
+    const std::size_t at = below(number % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 1024));
+    bytes[at] = static_cast<char>(bytes[at] ^ 1 << below(8));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("damaged files: a PNG chunk longer than the file is refused before memory is taken for it") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "long.png";
+  write_image(path, test_spec(4, 4, {"Y"}, OIIO::TypeUInt8), noise);
+  std::string bytes = read_file(path);
+  // Inserts a text chunk that claims 2.8 GB after the header of 33 bytes.
+  bytes.insert(33, std::string("\xa8\x00\x00\x00tEXtKey", 11));
+  write_file(path, bytes);
+  CHECK_THROWS_WITH(ImageReader(path), Contains("chunk tEXt claims to be longer than the file"));
+}
+
+TEST_CASE("damaged files: converted or refused, nothing else", "[slow][campaign]") {
+  const int mutations = campaign_length(500);
+  const auto converter = make_lowered_converter(example_fit());
+  for (const Format& format : formats()) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / ("s." + format.extension), out = folder.path() / "out";
+    OIIO::ImageSpec spec = test_spec(64, 64, {"R", "G", "B"}, format.type);
+    spec.tile_width = spec.tile_height = format.tile;
+    if (!format.compression.empty()) spec.attribute("Compression", format.compression);
+    write_image(file, spec, noise);
+    REQUIRE_NOTHROW(convert("0.3", file.string(), out, *converter));
+    const std::string whole = read_file(file);
+    int converted = 0, refused = 0;
+    for (int number = 0; number < mutations; ++number) {
+      INFO(format.extension << " " << format.compression << " mutation " << number);
+      std::ofstream(file, std::ios::binary) << mutated(whole, number);
+      std::filesystem::remove_all(out);
+      try {
+        convert("0.3", file.string(), out, *converter);
+        ++converted;
+      } catch (const Error& error) {
+        ++refused;
+        CHECK(std::string(error.what()).find(folder.path().string()) != std::string::npos);
+        if (std::filesystem::exists(out)) CHECK(std::filesystem::is_empty(out));
+      }
+    }
+    std::cout << "damaged " << format.extension << " " << format.compression << ": " << converted
+              << " converted, " << refused << " refused\n";
+    CHECK(refused >= mutations / 20);
+  }
 }

@@ -80,27 +80,6 @@ void require_alike(const Surface& a, const Surface& b, double tolerance) {
   CHECK(a.roughness == Approx(b.roughness).margin(tolerance));
 }
 
-AssetOptions to_specgloss() {
-  AssetOptions options;
-  options.target = AssetTarget::kSpecGloss;
-  options.instructions = InstructionSet::kBaseline;
-  return options;
-}
-
-AssetOptions folding() {
-  AssetOptions options;
-  options.extensions = DielectricExtensions::kFolded;
-  options.instructions = InstructionSet::kBaseline;
-  return options;
-}
-
-AssetOptions exact_form() {
-  AssetOptions options;
-  options.extensions = DielectricExtensions::kWritten;
-  options.instructions = InstructionSet::kBaseline;
-  return options;
-}
-
 std::string file_with(const std::string& materials, const std::string& extensions) {
   return R"({"asset":{"version":"2.0"},"extensionsUsed":[)" + extensions + R"(],"materials":[)" + materials +
          "]}";
@@ -146,7 +125,7 @@ TEST_CASE("Core materials become spec-gloss ones that reflect the same", "[asset
         file_with("{" + random.core() + (has_dielectric ? "," + random.dielectric() : "") + "}",
                   has_dielectric ? kDielectrics : "\"KHR_lights_punctual\"");
     CAPTURE(text);
-    const std::string after = converted_bytes(text, to_specgloss());
+    const std::string after = converted_bytes(text, kToSpecGloss);
     const SpannedJson before_json(text, "before"), json(after, "after");
     const SpanValue before = before_json.root()["materials"].children()[0],
                     material = json.root()["materials"].children()[0];
@@ -156,13 +135,13 @@ TEST_CASE("Core materials become spec-gloss ones that reflect the same", "[asset
     CHECK(material["pbrMetallicRoughness"].raw() == before["pbrMetallicRoughness"].raw());
     CHECK_FALSE(material["extensions"]["KHR_materials_ior"]);
     CHECK(json.root()["extensionsUsed"].children().back().text() == "KHR_materials_pbrSpecularGlossiness");
-    CHECK(converted_bytes(after, to_specgloss()) == after);
+    CHECK(converted_bytes(after, kToSpecGloss) == after);
   }
 }
 
 TEST_CASE("Core materials keep their numbers as spec-gloss", "[assets]") {
   const auto extension_of = [](const std::string& members) {
-    const std::string after = converted_bytes(file_with("{" + members + "}", ""), to_specgloss());
+    const std::string after = converted_bytes(file_with("{" + members + "}", ""), kToSpecGloss);
     const SpannedJson json(after, "after");
     return std::string(
         json.root()["materials"].children()[0]["extensions"]["KHR_materials_pbrSpecularGlossiness"].raw());
@@ -183,7 +162,7 @@ TEST_CASE("Core materials keep their numbers as spec-gloss", "[assets]") {
 TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
   const auto failures = [](const std::string& extensions) {
     return convert_gltf(MemorySource(file_with("{\"extensions\":{" + extensions + "}}", "")), "file",
-                        to_specgloss())
+                        kToSpecGloss)
         .materials.at(0)
         .failure;
   };
@@ -198,11 +177,11 @@ TEST_CASE("Materials stay that cannot become spec-gloss", "[assets]") {
   const std::string text = file_with(
       R"({"extensions":{"KHR_materials_unlit":{}}},{"extensions":{"KHR_materials_pbrSpecularGlossiness":{}}})",
       R"("KHR_materials_unlit","KHR_materials_pbrSpecularGlossiness")");
-  CHECK(converted_bytes(text, to_specgloss()) == text);
+  CHECK(converted_bytes(text, kToSpecGloss) == text);
   const std::string animated =
       R"({"asset":{"version":"2.0"},"materials":[{}],"animations":[{"channels":[{"target":{"extensions":)"
       R"({"KHR_animation_pointer":{"pointer":"/materials/0/pbrMetallicRoughness/roughnessFactor"}}}}]}]})";
-  CHECK(convert_gltf(MemorySource(animated), "file", to_specgloss()).materials.at(0).failure ==
+  CHECK(convert_gltf(MemorySource(animated), "file", kToSpecGloss).materials.at(0).failure ==
         "an animation (KHR_animation_pointer) changes a value that this conversion replaces (remove this "
         "channel of the animation)");
 }
@@ -213,7 +192,7 @@ TEST_CASE("Core materials come back from spec-gloss", "[assets]") {
   for (int i = 0; i < 300; ++i) {
     const std::string text = file_with("{" + random.core() + "}", "");
     CAPTURE(text);
-    const std::string back = converted_bytes(converted_bytes(text, to_specgloss()));
+    const std::string back = converted_bytes(converted_bytes(text, kToSpecGloss));
     const SpannedJson before(text, "before"), after(back, "after");
     const Surface a = core_surface(before.root()["materials"].children()[0]),
                   b = core_surface(after.root()["materials"].children()[0]);
@@ -232,7 +211,7 @@ TEST_CASE("Folding the exact form gives the core form", "[assets]") {
                                             R"(,"specularFactor":)" + text_of_color(random.color()) +
                                             R"(,"glossinessFactor":)" + number_text(random.unit()) + "}");
     CAPTURE(text);
-    const std::string folded = converted_bytes(converted_bytes(text, exact_form()), folding()),
+    const std::string folded = converted_bytes(converted_bytes(text, kExactOptions), kFolding),
                       core = converted_bytes(text);
     const SpannedJson a(folded, "folded"), b(core, "core");
     const SpanValue material = a.root()["materials"].children()[0];
@@ -246,7 +225,7 @@ TEST_CASE("Folding the exact form gives the core form", "[assets]") {
     for (const char* name : {"metallicFactor", "roughnessFactor"})
       CHECK(number_in(material["pbrMetallicRoughness"], name, 1.0) ==
             Approx(number_in(expected["pbrMetallicRoughness"], name, 1.0)).margin(1e-6));
-    CHECK(converted_bytes(folded, folding()) == folded);
+    CHECK(converted_bytes(folded, kFolding) == folded);
   }
 }
 
@@ -258,7 +237,7 @@ TEST_CASE("Folding keeps what core can represent", "[assets]") {
         "{" + core + R"(,"extensions":{"KHR_materials_ior":{"ior":1.5},"KHR_materials_specular":{}}})",
         kDielectrics);
     CAPTURE(text);
-    const std::string after = converted_bytes(text, folding());
+    const std::string after = converted_bytes(text, kFolding);
     const SpannedJson before_json(text, "before"), json(after, "after");
     require_alike(core_surface(json.root()["materials"].children()[0]),
                   core_surface(before_json.root()["materials"].children()[0]), 2e-4);
@@ -272,14 +251,14 @@ TEST_CASE("What folding does not change", "[assets]") {
           kept +
               R"(,{"extensions":{"KHR_materials_ior":{}}},{},{"extensions":{"KHR_materials_ior":{},"KHR_materials_unlit":{}}})",
           kDielectrics)),
-      "file", folding());
+      "file", kFolding);
   CHECK(result.materials[0].failure ==
         "has KHR_materials_volume, which needs KHR_materials_ior (convert it without --extensions fold)");
   CHECK(result.count(MaterialState::kConverted) == 1);
   CHECK(result.count(MaterialState::kUntouched) == 2);
   // Two materials still use KHR_materials_ior. Nothing uses the other extension any more, so it is removed.
   CHECK(result.text.find("\"KHR_materials_ior\"],") != std::string::npos);
-  AssetOptions wrong = folding();
+  AssetOptions wrong = kFolding;
   wrong.target = AssetTarget::kSpecGloss;
   CHECK_THROWS_WITH(convert_gltf(MemorySource("{}"), "file", wrong),
                     Catch::Contains("only folded into core"));
@@ -287,16 +266,16 @@ TEST_CASE("What folding does not change", "[assets]") {
 
 TEST_CASE("Spec-gloss beside an index that was ignored is not folded later", "[assets]") {
   const std::string after = converted_bytes(
-      specgloss_text(R"({"specularFactor":[0.04,0.04,0.04]},"KHR_materials_ior":{"ior":2})"), folding());
+      specgloss_text(R"({"specularFactor":[0.04,0.04,0.04]},"KHR_materials_ior":{"ior":2})"), kFolding);
   CHECK(after.find("KHR_materials_ior") == std::string::npos);
-  CHECK(converted_bytes(after, folding()) == after);
+  CHECK(converted_bytes(after, kFolding) == after);
 }
 
 TEST_CASE("Vertex colors of metals are named on the way to spec-gloss", "[assets]") {
   std::string text = file_with("{}", "");
   text.replace(text.size() - 1, 1,
                R"(,"meshes":[{"primitives":[{"attributes":{"COLOR_0":0},"material":0}]}]})");
-  CHECK(convert_gltf(MemorySource(text), "file", to_specgloss()).materials[0].warnings ==
+  CHECK(convert_gltf(MemorySource(text), "file", kToSpecGloss).materials[0].warnings ==
         std::vector<std::string>{"vertex colors of 1 primitive tinted its reflection and now tint only its "
                                  "diffuse color"});
 }
@@ -304,7 +283,7 @@ TEST_CASE("Vertex colors of metals are named on the way to spec-gloss", "[assets
 TEST_CASE("Indices and specular colors of public files go into core", "[assets][needs]") {
   const std::filesystem::path file = shared_data("assets/gltf/17_ior/17_ior.gltf");
   if (file.empty()) return;
-  const std::string text = read_file(file), after = converted_bytes(text, folding());
+  const std::string text = read_file(file), after = converted_bytes(text, kFolding);
   const SpannedJson before_json(text, "before"), json(after, "after");
   CHECK(after.find("KHR_materials_ior") == std::string::npos);
   const std::vector<SpanValue> before = before_json.root()["materials"].children(),

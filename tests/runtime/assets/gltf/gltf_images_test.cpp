@@ -243,12 +243,9 @@ TEST_CASE("The best image that can be decoded is taken", "[assets]") {
   const ImagePixels good = random_pixels(4, 1);
   const std::string bytes = container_of({constant_pixels({255, 255, 255}), good},
                                          textured(R"("specularGlossinessTexture":{"index":2})"));
-  std::string json = read_container(MemorySource(bytes), "before").json;
-  const std::string list = R"("textures":[{"source":0,"sampler":0},)";
-  json.replace(json.find(R"({"source":1,"sampler":1}])"), 24,
-               R"({"source":1},{"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})");
-  const GltfContainer container = read_container(MemorySource(bytes), "before");
-  const Reread after = reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)));
+  const Reread after =
+      reread(with_json(bytes, R"({"source":1,"sampler":1}])",
+                       R"({"source":1},{"source":0,"extensions":{"EXT_texture_webp":{"source":1}}}])"));
   CHECK(after.root()["textures"].children().back().raw() == R"({"source":3})");
   CHECK(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
 }
@@ -258,9 +255,7 @@ TEST_CASE("The smaller image of a pair is enlarged on request", "[assets]") {
   small.width = 3;
   small.bytes.resize(3 * 5 * 4);
   const std::string bytes = container_of({random_pixels(3, 1), small}, textured(kBoth));
-  AssetOptions options = kCoreOptions;
-  options.resamples = true;
-  const Reread after = reread(bytes, options);
+  const Reread after = reread(bytes, kResampling);
   const ImagePixels data = after.image(after.material(0)["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
   CHECK(data.width == 6);
   for (std::size_t i = 0; i < 30; ++i)
@@ -311,9 +306,7 @@ class NoLibrary final : public AssetResources {
 TEST_CASE("Materials without textures load no image library", "[assets]") {
   const std::string text = specgloss_text("{}");
   const NoLibrary resources;
-  AssetOptions back;
-  back.target = AssetTarget::kSpecGloss;
-  back.compacts = true;
+  const AssetOptions back = {.target = AssetTarget::kSpecGloss, .compacts = true};
   const std::string core = converted_bytes(text, kCoreOptions, &resources);
   CHECK(core == converted_bytes(text));
   CHECK_NOTHROW(converted_bytes(core, back, &resources));

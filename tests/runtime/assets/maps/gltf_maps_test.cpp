@@ -13,28 +13,11 @@
 
 #include "assets/maps/texture_bake.hpp"
 #include "runtime/assets/gltf_containers.hpp"
+#include "support/srgb.hpp"
 
 using namespace remap;
 
 namespace {
-
-AssetOptions specgloss_target() {
-  AssetOptions options = kCoreOptions;
-  options.target = AssetTarget::kSpecGloss;
-  return options;
-}
-
-AssetOptions with_fold() {
-  AssetOptions options = kCoreOptions;
-  options.extensions = DielectricExtensions::kFolded;
-  return options;
-}
-
-AssetOptions with_compaction() {
-  AssetOptions options = kCoreOptions;
-  options.compacts = true;
-  return options;
-}
 
 std::string core_textured(const std::string& members, const std::string& more = "") {
   return R"({"pbrMetallicRoughness":{)" + members + "}" + more + "}";
@@ -56,10 +39,6 @@ TexelLobes core_lobes(const std::array<double, 3>& base, double metallic,
     lobes.f0[c] = dielectric[c] * (1.0 - metallic) + base[c] * metallic;
   }
   return lobes;
-}
-
-double srgb_of(double value) {
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
 
 // This is half a step of 8 bits, plus the errors of floats.
@@ -85,7 +64,7 @@ TEST_CASE("Core maps become diffuse and specular-glossiness, texel by texel", "[
           core_textured(
               kCoreBoth +
               R"(,"baseColorFactor":[0.5,0.25,1,0.50],"metallicFactor":0.75,"roughnessFactor":0.5)"));
-      const Reread after = reread(bytes, specgloss_target());
+      const Reread after = reread(bytes, kToSpecGloss);
       const SpanValue extension = extension_of(after, 0);
       CHECK(extension["diffuseFactor"].raw() == "[1,1,1,0.50]");
       const ImagePixels diffuse = after.image(extension["diffuseTexture"]),
@@ -101,9 +80,9 @@ TEST_CASE("Core maps become diffuse and specular-glossiness, texel by texel", "[
         const double left = 1.0 - *std::ranges::max_element(lobes.f0);
         for (std::size_t c = 0; c < 3; ++c) {
           CHECK(static_cast<double>(value_at(specgloss, i, c)) ==
-                Approx(srgb_of(lobes.f0[c])).margin(kHalfStep));
+                Approx(linear_to_srgb(lobes.f0[c])).margin(kHalfStep));
           CHECK(static_cast<double>(value_at(diffuse, i, c)) ==
-                Approx(srgb_of(lobes.diffuse[c] / left)).margin(kHalfStep));
+                Approx(linear_to_srgb(lobes.diffuse[c] / left)).margin(kHalfStep));
         }
         CHECK(static_cast<double>(value_at(specgloss, i, 3)) ==
               Approx(1.0 - 0.5 * static_cast<double>(value_at(data, i, 1))).margin(kHalfStep));
@@ -111,8 +90,8 @@ TEST_CASE("Core maps become diffuse and specular-glossiness, texel by texel", "[
           CHECK(value_at(diffuse, i, diffuse.channels - 1) == value_at(base, i, base.channels - 1));
       }
       CHECK(require_others_kept(read_container(MemorySource(bytes), "before").json, after.container.json,
-                                specgloss_target()) == 1);
-      CHECK(reread(after.bytes, specgloss_target()).bytes == after.bytes);
+                                kToSpecGloss) == 1);
+      CHECK(reread(after.bytes, kToSpecGloss).bytes == after.bytes);
     }
 }
 
@@ -128,7 +107,7 @@ TEST_CASE("Spec-gloss maps are made once, and only where they vary", "[assets]")
               "," +
               core_textured(R"("metallicFactor":0,"baseColorTexture":{"index":0,"extras":1},)"
                             R"("metallicRoughnessTexture":{"index":1,"texCoord":1})")),
-      specgloss_target());
+      kToSpecGloss);
   // If the material is a dielectric, diffuse is base color, and specular is one number.
   const SpanValue first = extension_of(after, 0);
   CHECK(first["diffuseTexture"].raw() == R"({"index":0})");
@@ -147,9 +126,8 @@ TEST_CASE("Spec-gloss maps are made once, and only where they vary", "[assets]")
 }
 
 TEST_CASE("A base map of metals without alpha is not needed for diffuse", "[assets]") {
-  const Reread after =
-      reread(container_of({random_pixels(3, 1)}, core_textured(R"("baseColorTexture":{"index":0})")),
-             specgloss_target());
+  const Reread after = reread(
+      container_of({random_pixels(3, 1)}, core_textured(R"("baseColorTexture":{"index":0})")), kToSpecGloss);
   CHECK_FALSE(extension_of(after, 0)["diffuseTexture"]);
   CHECK(extension_of(after, 0)["diffuseFactor"].raw() == "[0,0,0,1]");
   CHECK(extension_of(after, 0)["specularGlossinessTexture"]);
@@ -160,7 +138,7 @@ TEST_CASE("A constant alpha of a base map that is not needed is a factor", "[ass
   for (std::size_t i = 3; i < base.bytes.size(); i += 4) base.bytes[i] = std::byte{51};
   const Reread after = reread(
       container_of({base}, core_textured(R"("baseColorTexture":{"index":0},"baseColorFactor":[1,1,1,0.5])")),
-      specgloss_target());
+      kToSpecGloss);
   CHECK(extension_of(after, 0)["diffuseFactor"].raw() == "[0,0,0,0.1]");
 }
 
@@ -172,7 +150,7 @@ TEST_CASE("Maps of KHR_materials_specular enter texel by texel", "[assets]") {
       R"(,"extensions":{"KHR_materials_ior":{"ior":2.5},"KHR_materials_specular":{"specularFactor":0.9,)"
       R"("specularTexture":{"index":2},"specularColorFactor":[12,8,1],"specularColorTexture":{"index":3}}})");
   const std::string bytes = container_of({base, data, strength, tint}, material);
-  const Reread after = reread(bytes, specgloss_target());
+  const Reread after = reread(bytes, kToSpecGloss);
   const ImagePixels specgloss = after.image(extension_of(after, 0)["specularGlossinessTexture"]);
   const double f0 = std::pow(1.5 / 3.5, 2.0);
   for (std::size_t i = 0; i < 30; ++i) {
@@ -184,13 +162,14 @@ TEST_CASE("Maps of KHR_materials_specular enter texel by texel", "[assets]") {
     }
     const TexelLobes lobes = core_lobes(color, static_cast<double>(value_at(data, i, 2)), dielectric);
     for (std::size_t c = 0; c < 3; ++c)
-      CHECK(static_cast<double>(value_at(specgloss, i, c)) == Approx(srgb_of(lobes.f0[c])).margin(kHalfStep));
+      CHECK(static_cast<double>(value_at(specgloss, i, c)) ==
+            Approx(linear_to_srgb(lobes.f0[c])).margin(kHalfStep));
   }
   CHECK_FALSE(after.material(0)["extensions"]["KHR_materials_specular"]);
-  const Reread folded = reread(bytes, with_fold());
+  const Reread folded = reread(bytes, kFolding);
   CHECK_FALSE(folded.material(0)["extensions"]);
   CHECK(folded.root()["images"].size() == 6);
-  CHECK(reread(folded.bytes, with_fold()).bytes == folded.bytes);
+  CHECK(reread(folded.bytes, kFolding).bytes == folded.bytes);
 }
 
 TEST_CASE("Diffuse of dielectrics stays where specular leaves nothing for it", "[assets]") {
@@ -203,7 +182,7 @@ TEST_CASE("Diffuse of dielectrics stays where specular leaves nothing for it", "
                      R"("baseColorTexture":{"index":0},"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0)",
                      R"(,"extensions":{"KHR_materials_ior":{"ior":0},"KHR_materials_specular":{)"
                      R"("specularColorTexture":{"index":1}}})")),
-             specgloss_target());
+             kToSpecGloss);
   CHECK(extension_of(after, 0)["diffuseTexture"].raw() == R"({"index":0})");
   CHECK(extension_of(after, 0)["diffuseFactor"].raw() == "[0.5,0.25,1,1]");
   const ImagePixels specgloss = after.image(extension_of(after, 0)["specularGlossinessTexture"]);
@@ -217,16 +196,15 @@ TEST_CASE("Folding the exact form of maps gives the maps of core", "[assets]") {
   const std::string bytes =
       container_of({diffuse, specgloss},
                    textured(kBoth + R"(,"diffuseFactor":[0.5,0.6,0.7,1],"specularFactor":[0.9,0.8,1])"));
-  const Reread core = reread(bytes), folded = reread(reread(bytes, kExactOptions).bytes, with_fold());
-  for (const auto& [name, tolerance] :
-       {std::pair("baseColorTexture", 1.0), std::pair("metallicRoughnessTexture", 1.0)}) {
+  const Reread core = reread(bytes), folded = reread(reread(bytes, kExactOptions).bytes, kFolding);
+  for (const char* name : {"baseColorTexture", "metallicRoughnessTexture"}) {
     const ImagePixels a = core.image(core.material(0)["pbrMetallicRoughness"][name]),
                       b = folded.image(folded.material(0)["pbrMetallicRoughness"][name]);
     REQUIRE(a.bytes.size() == b.bytes.size());
     // In between, roughness was rounded to 8 bits, which slightly affects the projection.
     for (std::size_t i = 0; i < 30; ++i)
       for (std::size_t c = 0; c < a.channels; ++c)
-        CHECK(value_at(a, i, c) == Approx(value_at(b, i, c)).margin((tolerance + 0.01) / 255.0));
+        CHECK(value_at(a, i, c) == Approx(value_at(b, i, c)).margin(1.01 / 255.0));
   }
 }
 
@@ -234,14 +212,14 @@ TEST_CASE("Maps of core that do not lie on one grid are named", "[assets]") {
   const std::string bytes = container_of(
       {random_pixels(3, 1), random_pixels(3, 2)},
       core_textured(R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1,"texCoord":1})"));
-  CHECK(failures_of(bytes, specgloss_target()).front() ==
+  CHECK(failures_of(bytes, kToSpecGloss).front() ==
         "its base color texture lies on TEXCOORD_0, its metallic roughness texture on TEXCOORD_1, and both "
         "decide on specular color (bake both with one set of UVs, for example in Blender)");
 }
 
 TEST_CASE("Compaction gives places of spare images to new ones, and cuts their bytes", "[assets]") {
   const std::string bytes = container_of({random_pixels(3, 1), random_pixels(4, 2)}, textured(kBoth));
-  const Reread plain = reread(bytes), after = reread(bytes, with_compaction());
+  const Reread plain = reread(bytes), after = reread(bytes, kCompacting);
   CHECK(after.root()["images"].size() == 2);
   CHECK(after.root()["textures"].size() == 2);
   CHECK(after.root()["bufferViews"].size() == 3);
@@ -255,7 +233,7 @@ TEST_CASE("Compaction gives places of spare images to new ones, and cuts their b
   // The chunk has the mesh, and two images of three channels.
   CHECK(chunk_length(after) == 4 + 96 + 95);
   CHECK(after.bytes.ends_with("mine"));
-  CHECK(reread(after.bytes, with_compaction()).bytes == after.bytes);
+  CHECK(reread(after.bytes, kCompacting).bytes == after.bytes);
 }
 
 TEST_CASE("Compaction keeps what others use", "[assets]") {
@@ -263,13 +241,12 @@ TEST_CASE("Compaction keeps what others use", "[assets]") {
   const std::string failing =
       textured(R"("diffuseTexture":{"index":0,"texCoord":1},"specularGlossinessTexture":{"index":1})");
   // A material that fails still uses both images.
-  const Reread failed =
-      reread(container_of({shared, odd}, textured(kBoth) + "," + failing), with_compaction());
+  const Reread failed = reread(container_of({shared, odd}, textured(kBoth) + "," + failing), kCompacting);
   CHECK(failed.root()["images"].size() == 4);
   // A converted material has an occlusion map.
   std::string occluded = textured(kBoth);
   occluded.replace(occluded.size() - 1, 1, R"(,"occlusionTexture":{"index":1}})");
-  const Reread kept = reread(container_of({shared, odd}, occluded), with_compaction());
+  const Reread kept = reread(container_of({shared, odd}, occluded), kCompacting);
   CHECK(kept.root()["images"].size() == 3);
   CHECK(kept.image(kept.material(0)["occlusionTexture"]).bytes == odd.bytes);
   CHECK(kept.material(0)["pbrMetallicRoughness"]["baseColorTexture"].raw() == R"({"index":0})");
@@ -278,25 +255,21 @@ TEST_CASE("Compaction keeps what others use", "[assets]") {
   std::string normal = textured(kBoth);
   normal.replace(normal.size() - 1, 1, R"(,"normalTexture":{"index":2}})");
   const std::string bytes = container_of({shared, odd, mesh}, normal);
-  const Reread after = reread(bytes, with_compaction());
+  const Reread after = reread(bytes, kCompacting);
   CHECK(after.root()["images"].size() == 3);
   CHECK(after.image(after.material(0)["normalTexture"]).bytes == mesh.bytes);
   CHECK(chunk_length(after) > chunk_length(Reread(bytes)));
   CHECK(require_others_kept(read_container(MemorySource(bytes), "before").json, after.container.json,
-                            with_compaction()) == 1);
+                            kCompacting) == 1);
 }
 
 TEST_CASE("Compaction cuts no byte that another view has", "[assets]") {
   const std::string bytes = container_of({random_pixels(3, 1), random_pixels(4, 2)}, textured(kBoth));
-  const GltfContainer container = read_container(MemorySource(bytes), "before");
-  const std::string own = R"({"buffer":0,"byteLength":4})";
-  std::string json = container.json;
-  json.replace(json.find(own), own.size(), R"({"buffer":0,"byteLength":50})");
-  const Reread after =
-      reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)), with_compaction());
+  const Reread after = reread(
+      with_json(bytes, R"({"buffer":0,"byteLength":4})", R"({"buffer":0,"byteLength":50})"), kCompacting);
   CHECK(chunk_length(after) == 52 + 96 + 95);
   CHECK(after.bytes.substr(after.container.chunks[0].content_begin(), 50) ==
-        bytes.substr(container.chunks[0].content_begin(), 50));
+        bytes.substr(Reread(bytes).container.chunks[0].content_begin(), 50));
 }
 
 TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]") {
@@ -305,7 +278,7 @@ TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]
       container_of({random_pixels(3, 1), random_pixels(4, 2)},
                    textured(R"("specularGlossinessTexture":{"index":1},"diffuseFactor":[0,0,0,1])") + "," +
                        textured(R"("diffuseTexture":{"index":0},"specularFactor":[1,1,1])"));
-  const Reread after = reread(bytes, with_compaction());
+  const Reread after = reread(bytes, kCompacting);
   const std::vector<SpanValue> images = after.root()["images"].children();
   for (const SpanValue& image : images) {
     const SpanValue view = after.root()["bufferViews"].children().at(image["bufferView"].whole().value());
@@ -314,7 +287,7 @@ TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]
   }
   const Reread none =
       reread(container_of({constant_pixels({255, 0, 0}), constant_pixels({0, 0, 0, 51})}, textured(kBoth)),
-             with_compaction());
+             kCompacting);
   CHECK(none.root()["images"].children()[0]["uri"].raw().starts_with("\"data:image/png;base64,"));
   CHECK(none.root()["images"].children()[1]["uri"]);
   CHECK(none.root()["bufferViews"].children()[2].raw() == R"({"buffer":0,"byteOffset":0,"byteLength":1})");
@@ -324,15 +297,12 @@ TEST_CASE("Spare places that nothing takes share the bytes of others", "[assets]
 TEST_CASE("Textures of other formats lose their extension when they are spare", "[assets]") {
   const std::string bytes = container_of({random_pixels(3, 1), random_pixels(4, 2)},
                                          textured(R"("specularGlossinessTexture":{"index":1})"));
-  std::string json = read_container(MemorySource(bytes), "before").json;
-  const std::string own = R"({"source":1,"sampler":1})";
-  json.replace(json.find(own), own.size(), R"({"extensions":{"EXT_texture_webp":{"source":1}},"sampler":1})");
-  const std::string list = R"(["KHR_materials_pbrSpecularGlossiness"])";
-  json.replace(json.find(list), list.size(), R"(["EXT_texture_webp","KHR_materials_pbrSpecularGlossiness"])");
   const std::string webp =
-      glb_bytes(json, bytes.substr(read_container(MemorySource(bytes), "before").chunks.front().begin));
+      with_json(with_json(bytes, R"({"source":1,"sampler":1})",
+                          R"({"extensions":{"EXT_texture_webp":{"source":1}},"sampler":1})"),
+                R"(["KHR_)", R"(["EXT_texture_webp","KHR_)");
   CHECK(reread(webp).root()["extensionsUsed"].raw() == R"(["EXT_texture_webp"])");
-  const Reread after = reread(webp, with_compaction());
+  const Reread after = reread(webp, kCompacting);
   CHECK_FALSE(after.root()["extensionsUsed"]);
   CHECK(after.root()["textures"].children()[1].raw() == R"({"sampler":1,"source":1})");
 }
@@ -341,29 +311,23 @@ TEST_CASE("A spare texture of another format keeps its extension where its image
   const std::string bytes = container_of(
       {constant_pixels({255, 0, 0}), random_pixels(4, 2)},
       R"({"normalTexture":{"index":1},"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":{"index":0},"specularFactor":[0.04,0.04,0.04]}}})");
-  const GltfContainer container = read_container(MemorySource(bytes), "before");
-  std::string json = container.json;
-  const std::string list = R"("textures":[{"source":0,"sampler":0},{"source":1,"sampler":1}])",
-                    both = R"({"extensions":{"EXT_texture_webp":{"source":0}}})";
-  json.replace(json.find(list), list.size(), R"("textures":[)" + both + "," + both + "]");
+  const std::string both = R"({"extensions":{"EXT_texture_webp":{"source":0}}})";
   const Reread after =
-      reread(glb_bytes(json, bytes.substr(container.chunks.front().begin)), with_compaction());
+      reread(with_json(bytes, R"({"source":0,"sampler":0},{"source":1,"sampler":1})", both + "," + both),
+             kCompacting);
   CHECK(after.material(0)["pbrMetallicRoughness"]["baseColorFactor"].raw() == "[1,0,0,1]");
   for (const SpanValue& texture : after.root()["textures"].children()) CHECK(texture.raw() == both);
 }
 
 TEST_CASE("Files with unknown extensions are not compacted", "[assets]") {
-  std::string bytes = container_of({random_pixels(3, 1), random_pixels(4, 2)}, textured(kBoth));
-  const std::string list = R"(["KHR_materials_pbrSpecularGlossiness"])";
-  const GltfContainer container = read_container(MemorySource(bytes), "before");
-  std::string json = container.json;
-  json.replace(json.find(list), list.size(), R"(["ACME_atlas","KHR_materials_pbrSpecularGlossiness"])");
-  bytes = glb_bytes(json, bytes.substr(container.chunks.front().begin));
+  const std::string bytes =
+      with_json(container_of({random_pixels(3, 1), random_pixels(4, 2)}, textured(kBoth)), R"(["KHR_)",
+                R"(["ACME_atlas","KHR_)");
   const PlainResources resources;
-  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", with_compaction(), &resources);
+  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", kCompacting, &resources);
   CHECK(result.warnings ==
         std::vector<std::string>{"keeps its unused images, because the extension ACME_atlas may use them"});
-  CHECK(Reread(converted_bytes(bytes, with_compaction(), &resources)).root()["images"].size() == 4);
+  CHECK(Reread(converted_bytes(bytes, kCompacting, &resources)).root()["images"].size() == 4);
 }
 
 namespace {
@@ -440,7 +404,7 @@ TEST_CASE("Compacted random containers show what others show", "[assets]") {
     for (const AssetTarget target : {AssetTarget::kMetalRough, AssetTarget::kSpecGloss}) {
       const std::string bytes = RandomContainer(seed).bytes();
       CAPTURE(seed, static_cast<int>(target));
-      AssetOptions options = kCoreOptions, compact = with_compaction();
+      AssetOptions options = kCoreOptions, compact = kCompacting;
       options.target = compact.target = target;
       const Reread before(bytes), plain = reread(bytes, options), after = reread(bytes, compact);
       REQUIRE(pixels_by_place(after) == pixels_by_place(plain));
@@ -468,7 +432,7 @@ TEST_CASE("Files that only unused images refer to no longer belong to the asset"
   const std::string text =
       R"({"asset":{"version":"2.0"},"materials":[)" + textured(kBoth) +
       R"(],"textures":[{"source":0},{"source":1}],"images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"c.png"}]})";
-  const AssetConversion result = convert_gltf(MemorySource(text), "file", with_compaction(), &resources);
+  const AssetConversion result = convert_gltf(MemorySource(text), "file", kCompacting, &resources);
   REQUIRE(result.resources.size() == 1);
   CHECK(result.resources[0].path == "c.png");
   CHECK(SpannedJson(result.text, "file").root()["images"].children()[0].raw() ==
@@ -522,13 +486,11 @@ TEST_CASE("Maps with different transforms are converted on request", "[assets]")
       failures_of(bytes).front() ==
       "its diffuse and specular glossiness textures have different KHR_texture_transform, and both decide on "
       "metallic (use --resample, or --extensions write)");
-  AssetOptions options = kCoreOptions;
-  options.resamples = true;
   const PlainResources resources;
-  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", options, &resources);
+  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", kResampling, &resources);
   for (const std::string& warning : result.materials[0].warnings)
     CHECK(warning.find("drawn onto") == std::string::npos);
-  const Reread after = reread(bytes, options);
+  const Reread after = reread(bytes, kResampling);
   const SpanValue core = after.material(0)["pbrMetallicRoughness"];
   CHECK(core["metallicRoughnessTexture"].raw() == R"({"index":3})");
   const ImagePixels data = after.image(core["metallicRoughnessTexture"]), specgloss = random_pixels(4, 2);
@@ -549,13 +511,11 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
                           std::byte{220}, std::byte{150}, std::byte{99}}};
   ImagePixels stripes = random_pixels(3, 1);
   const std::string scale = R"("extensions":{"KHR_texture_transform":{"scale":[2,2]}})";
-  AssetOptions options = kCoreOptions;
-  options.resamples = true;
   const PlainResources resources;
   const std::string bytes = container_of(
       {stripes, gold},
       textured(R"("diffuseTexture":{"index":0,)" + scale + R"(},"specularGlossinessTexture":{"index":1})"));
-  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", options, &resources);
+  const AssetConversion result = convert_gltf(MemorySource(bytes), "file", kResampling, &resources);
   REQUIRE(result.materials[0].failure.empty());
   const auto warnings_of = [](const AssetMaterial& material) {
     std::string text;
@@ -563,7 +523,7 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
     return text;
   };
   CHECK(warnings_of(result.materials[0]).find("drawn onto") == std::string::npos);
-  const Reread after = reread(bytes, options);
+  const Reread after = reread(bytes, kResampling);
   const SpanValue core = after.material(0)["pbrMetallicRoughness"];
   CHECK(core["baseColorTexture"].raw().find("extensions") == std::string::npos);
   const ImagePixels base = after.image(core["baseColorTexture"]),
@@ -583,7 +543,7 @@ TEST_CASE("reports: 08 a texture that repeats is drawn as often as it repeats", 
         MemorySource(container_of(
             {stripes, gold}, textured(R"("diffuseTexture":{"index":0,)" + transform(first) +
                                       R"(,"specularGlossinessTexture":{"index":1,)" + transform(second)))),
-        "file", options, &resources);
+        "file", kResampling, &resources);
     const AssetMaterial& material = both.materials[0];
     return material.failure + warnings_of(material);
   };
@@ -612,51 +572,15 @@ TEST_CASE("Pairs that are baked differently are converted apart", "[assets]") {
                     R"("KHR_texture_transform":{"offset":[)" +
                     offset + ",0]}}}");
   };
-  AssetOptions options = kCoreOptions;
-  options.resamples = true;
   const Reread after = reread(container_of({random_pixels(3, 1), random_pixels(4, 2)},
                                            material("0.5") + "," + material("0.25") + "," + material("0.50")),
-                              options);
+                              kResampling);
   CHECK(after.root()["images"].size() == 6);
   CHECK(after.material(2)["pbrMetallicRoughness"].raw() == after.material(0)["pbrMetallicRoughness"].raw());
 }
 
-namespace {
-
-// A JpegCodec reads images that begin like JPEG files as the pixels after that beginning.
-class JpegCodec final : public ImageCodec {
- public:
-  ImagePixels decode(std::string_view bytes, const std::string& place) const override {
-    return plain_.decode(bytes.starts_with("\xff\xd8") ? bytes.substr(4) : bytes, place);
-  }
-  std::string encode_png(const ImagePixels& pixels, int level) const override {
-    return plain_.encode_png(pixels, level);
-  }
-  std::string encode_jpeg(const ImagePixels& pixels, int quality) const override {
-    return plain_.encode_jpeg(pixels, quality);
-  }
-
- private:
-  PlainCodec plain_;
-};
-
-class JpegResources final : public AssetResources {
- public:
-  std::map<std::string, std::string> files;
-  std::unique_ptr<ByteSource> open(const std::string& path) const override {
-    return std::make_unique<MemorySource>(files.at(path));
-  }
-  const ImageCodec& codec() const override { return codec_; }
-  ImagePixels enlarged(const ImagePixels& pixels, std::size_t, std::size_t) const override { return pixels; }
-
- private:
-  JpegCodec codec_;
-};
-
-}  // namespace
-
 TEST_CASE("Color of JPEG files is JPEG on request, data and alpha never", "[assets]") {
-  JpegResources resources;
+  PlainResources resources;
   AssetOptions options = kCoreOptions;
   options.jpeg_quality = 85;
   const auto new_files = [&](const ImagePixels& diffuse, bool is_jpeg) {

@@ -12,6 +12,7 @@
 #include "core/input_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 #include "support/build_speed.hpp"
+#include "support/error_of.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -67,12 +68,7 @@ MadeScene of_material(const std::string& lines, const PlainResources& resources 
 ObjScene read(const std::string& text) { return read_obj(MemorySource(text), "file"); }
 
 std::string refusal_of(const std::string& obj) {
-  try {
-    (void)made(obj);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { (void)made(obj); });
 }
 
 }  // namespace

@@ -1,13 +1,22 @@
-// This file tests the layout of --help: groups, rare options, wrapped lines.
-#include "command_line/help_text.hpp"
-
+// This file tests what both programs share: the layout of --help, exit codes, answers to mistyped words,
+// and signals that ask a program to stop, each in a separate process.
+#include <csignal>
+#include <functional>
+#include <iostream>
+#include <sstream>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
 #include "command_line/command.hpp"
+#include "command_line/help_text.hpp"
+#include "command_line/interruption.hpp"
+#include "command_line/run_app.hpp"
+#include "remap/error.hpp"
 
 using namespace remap;
 
@@ -139,4 +148,132 @@ TEST_CASE("help_text: excluded options stand in the order of their names, wherev
     const std::string text = app.app().help("tool", CLI::AppFormatMode::All);
     CHECK_THAT(text, Catch::Matchers::Contains("Exact (not with --narrow; not with --plain; not with\n"));
   }
+}
+
+namespace {
+
+struct Answer {
+  int code;
+  std::string errors;
+};
+
+// Runs an app `tool` with the commands `bake` (--size N required, --shape) and `show`.
+Answer run_tool(
+    std::vector<const char*> words, const std::function<void()>& work = [] {}) {
+  Command app("A tool.", "tool");
+  app.require_subcommand(1);
+  Command* bake = app.add_subcommand("bake");
+  int size = 0;
+  std::string shape;
+  bake->add_option("--size", size)->required();
+  bake->add_option("--shape", shape);
+  bake->callback(work);
+  app.add_subcommand("show");
+  words.insert(words.begin(), "tool");
+  std::ostringstream errors, output;
+  std::streambuf* const kept_errors = std::cerr.rdbuf(errors.rdbuf());
+  std::streambuf* const kept_output = std::cout.rdbuf(output.rdbuf());
+  const int code = run_app(app, static_cast<int>(words.size()), words.data());
+  std::cerr.rdbuf(kept_errors);
+  std::cout.rdbuf(kept_output);
+  return {code, errors.str()};
+}
+
+}  // namespace
+
+TEST_CASE("run_app: a command that returns is exit code 0") {
+  const Answer answer = run_tool({"bake", "--size", "3"});
+  CHECK(answer.code == 0);
+  CHECK(answer.errors.empty());
+  CHECK(run_tool({"--help"}).code == 0);
+  CHECK(run_tool({"bake", "--help"}).code == 0);
+}
+
+TEST_CASE("run_app: mistyped words are answered with the nearest") {
+  CHECK(run_tool({"bake", "--sise", "3"}).errors == "tool: unknown option --sise (did you mean --size?)\n");
+  CHECK(run_tool({"bake", "--size=3", "--shpae=x"}).errors ==
+        "tool: unknown option --shpae (did you mean --shape?)\n");
+  CHECK(run_tool({"baek"}).errors == "tool: unknown command 'baek' (did you mean bake?)\n");
+  CHECK(run_tool({"bake", "--sise", "3"}).code == 2);
+  CHECK(run_tool({"baek"}).code == 2);
+}
+
+TEST_CASE("run_app: what is missing or too much is named") {
+  CHECK(run_tool({}).errors == "tool: no command given (try --help)\n");
+  CHECK(run_tool({"bake"}).errors == "tool: --size is required (see tool bake --help)\n");
+  CHECK(run_tool({"bake", "--size"}).errors == "tool: --size: value missing (see tool bake --help)\n");
+  CHECK(run_tool({"bake", "--size", "big"}).errors ==
+        "tool: --size: invalid value 'big' (see tool bake --help)\n");
+  CHECK(run_tool({"bake", "--size", "3", "more"}).errors ==
+        "tool: unexpected argument 'more' (see tool bake --help)\n");
+  CHECK(run_tool({"bake"}).code == 2);
+}
+
+TEST_CASE("run_app: a failing command is one line and the exit code of its kind") {
+  const auto failing = [](ErrorKind kind) {
+    return run_tool({"bake", "--size", "3"}, [kind] { throw Error(kind, "x: is\nbad; expected good"); });
+  };
+  CHECK(failing(ErrorKind::kInput).code == 1);
+  CHECK(failing(ErrorKind::kInterrupted).code == 1);
+  CHECK(failing(ErrorKind::kUsage).code == 2);
+  CHECK(failing(ErrorKind::kInput).errors == "tool: x: is bad; expected good\n");
+  const Answer other = run_tool({"bake", "--size", "3"}, [] { throw std::runtime_error("odd"); });
+  CHECK(other.code == 1);
+  CHECK(other.errors == "tool: unexpected failure: odd\n");
+}
+
+namespace {
+
+// Runs `work` in a child process. Returns its exit code, or minus the signal that ended it.
+int end_of(const std::function<int()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // Catch2 installs handlers here, and the test may run under nohup.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+    ::_exit(work());
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+TEST_CASE("interruption: the first signal sets the flag, the second ends the process") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto once = [&] {
+      watch_interruptions();
+      if (interruption()) return 1;
+      std::raise(signal);
+      return interruption() ? 0 : 2;
+    };
+    CHECK(end_of(once) == 0);
+    CHECK(end_of([&] {
+            once();
+            watch_interruptions();  // a command may call it again when it starts another part of its work
+            std::raise(signal);
+            return 0;
+          }) == -signal);
+  }
+}
+
+TEST_CASE("interruption: whoever writes to a pipe that nobody reads can still clean up") {
+  CHECK(end_of([] {
+          watch_interruptions();
+          int ends[2];
+          if (::pipe(ends) != 0) return 1;
+          ::close(ends[0]);
+          for (int i = 0; i < 3; ++i)
+            if (::write(ends[1], "x", 1) == 1) return 2;
+          return interruption() ? 0 : 3;
+        }) == 0);
+}
+
+TEST_CASE("interruption: a program under nohup goes on") {
+  CHECK(end_of([] {
+          std::signal(SIGHUP, SIG_IGN);
+          watch_interruptions();
+          std::raise(SIGHUP);
+          return interruption() ? 1 : 0;
+        }) == 0);
 }

@@ -1,17 +1,145 @@
-// This file tests the study of workflows on small pictures. The least error is below every method, and the
-// projection is close to it. The projection is exact for materials that metallic can represent.
+// This file tests studies. The reach study is tested on conversions whose excess is known. In the study of
+// workflows, the least error is below every method, and the projection is close to it; it is exact for
+// materials that metallic can represent. The metals of scripts/studies/conductors are compared with the
+// database.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
+#include "compiler/report/scaled_fit.hpp"
+#include "core/files.hpp"
 #include "core/input_file.hpp"
+#include "lower/fit_file.hpp"
+#include "measure/sweep.hpp"
 #include "remap/error.hpp"
+#include "renderer/fresnel.hpp"
+#include "study/reach.hpp"
 #include "study/workflows.hpp"
+#include "support/campaign.hpp"
+#include "support/shared_data.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
+
+namespace {
+
+ReachOptions small_reach(Fit fit) {
+  fit.table.comments["objective"] = "natural-1";
+  ReachOptions options;
+  options.fits = {std::move(fit)};
+  options.materials = 6;
+  options.alphas = {0.15, 0.9};
+  options.resolution = 48;
+  return options;
+}
+
+std::vector<ReachedMaterial> reach_of(const Fit& fit) {
+  return study_reach(*make_builtin_renderer(), small_reach(fit)).front();
+}
+
+}  // namespace
+
+TEST_CASE("reach: a model reaches itself, and the identity leaves nothing", "[study]") {
+  for (const ReachedMaterial& material : reach_of(scaled_fit("mitsuba/ward", "mitsuba/ward", 1.0))) {
+    CHECK(material.error < 1e-6);
+    CHECK(material.least_error < 4e-3);  // the examined widths are a hundredth apart
+    CHECK(material.least_alpha == Approx(material.alpha).epsilon(0.006));
+    CHECK(material.least_specular == Approx(material.specular).epsilon(0.02));
+  }
+}
+
+TEST_CASE("reach: a conversion that is off has the excess of its error", "[study]") {
+  for (const ReachedMaterial& material : reach_of(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1))) {
+    CHECK(material.target_alpha == Approx(1.1 * material.alpha));
+    CHECK(material.excess() > 0.02);
+    CHECK(material.excess() == Approx(material.error).margin(4e-3));
+  }
+}
+
+TEST_CASE("reach: the least error is that of the sweep, which finds it another way", "[study]") {
+  const std::vector<ReachedMaterial> materials = reach_of(scaled_fit("mitsuba/beckmann", "mitsuba/as", 1.0));
+  SweepOptions sweep;
+  sweep.source = "mitsuba/beckmann";
+  sweep.target = "mitsuba/as";
+  sweep.objective = objective_preset("natural-1");
+  sweep.resolution = 48;
+  for (const ReachedMaterial& material : materials)
+    sweep.samples.push_back({material.alpha, material.specular});
+  const Table table = run_sweep(*make_builtin_renderer(), sweep, {});
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    INFO(materials[i].alpha << " " << materials[i].specular);
+    CHECK(materials[i].least_error == Approx(table.rows[i].error).margin(2e-4));
+  }
+}
+
+TEST_CASE("reach: the table has a row for each material, and no thread changes it", "[study]") {
+  ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
+  const std::string csv = reach_csv(options, study_reach(*make_builtin_renderer(), options));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 3 + 36);  // comments and header
+  CHECK_THAT(csv, Catch::Contains("\ntest,0.15,"));
+  options.jobs = 1;
+  CHECK(reach_csv(options, study_reach(*make_builtin_renderer(), options)) == csv);
+}
+
+TEST_CASE("reach: a fit of another table is refused", "[study]") {
+  ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
+  options.fits.front().table.comments.clear();
+  CHECK_THROWS_WITH(study_reach(*make_builtin_renderer(), options),
+                    Catch::Matchers::Contains("does not state an objective"));
+}
+
+namespace {
+
+// Returns the record of a material in the database.
+nlohmann::json record(const nlohmann::json& database, const std::string& name) {
+  for (const nlohmann::json& item : database.at("data"))
+    if (item.at("name") == name) return item;
+  FAIL("the database has no " + name);
+  return {};
+}
+
+bool is_linear_srgb(const nlohmann::json& index) { return index.at("colorSpace") == "srgb-linear"; }
+
+nlohmann::json metals() {
+  return nlohmann::json::parse(read_file(REMAP_SOURCE_DIR "/scripts/studies/metals.json")).at("metals");
+}
+
+}  // namespace
+
+TEST_CASE("metals: named once, with a source, and physical") {
+  std::set<std::string> names;
+  for (const nlohmann::json& metal : metals()) {
+    CHECK(names.insert(metal["name"]).second);
+    CHECK(metal["source"].get<std::string>().size() > 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double f0 = normal_reflectance({metal["eta"][c], metal["k"][c]});
+      CHECK(f0 > 0.1);
+      CHECK(f0 <= 1.0);
+    }
+  }
+  CHECK(names.size() == 30);
+}
+
+TEST_CASE("metals: values equal those of the database", "[needs]") {
+  const auto path = shared_data("materials/physicallybased.json");
+  if (path.empty()) return;
+  const nlohmann::json database = nlohmann::json::parse(read_file(path));
+  for (const nlohmann::json& metal : metals()) {
+    const auto item = record(database, metal["name"]);
+    const auto& indices = item.at("complexIor");
+    CHECK(std::count_if(indices.begin(), indices.end(), is_linear_srgb) == 1);
+    for (const nlohmann::json& index : indices) {
+      if (!is_linear_srgb(index)) continue;
+      CHECK(index.at("n") == metal["eta"]);
+      CHECK(index.at("k") == metal["k"]);
+    }
+  }
+}
 
 namespace {
 
