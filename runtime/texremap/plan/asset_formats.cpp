@@ -57,7 +57,8 @@ std::string result_extension(const fs::path& input, const std::string& format) {
   if (!format.empty() && format != "glb" && format != "gltf")
     throw usage_error("--format " + format + ": OBJ files can become glb or gltf (use --format glb)");
   const bool is_obj = kind_of_asset(input) == AssetKind::kObj;
-  if (is_obj && format.empty()) throw usage_error(obj_text(input, "use an output name *.glb or *.gltf, or add --format glb"));
+  if (is_obj && format.empty())
+    throw usage_error(obj_text(input, "use an output name *.glb or *.gltf, or add --format glb"));
   if (!is_obj && !format.empty())
     throw usage_error("--format " + format + ": " + display_path(input) +
                       " keeps its format (remove this option, which is for OBJ files)");
