@@ -5,10 +5,8 @@
 #include <set>
 
 #include "assets/maps/map_pixels.hpp"
-#include "check/color_issue.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "texture/normal_green.hpp"
 
 namespace remap::look {

@@ -6,8 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "remap/error.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
@@ -21,7 +20,7 @@ std::string name_of(const CLI::Option& option) {
 
 void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                   const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
+  throw usage_error(option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
 }
 
 Option* Option::required() {

@@ -15,7 +15,6 @@
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
 #include "core/system.hpp"
 #include "remap/error.hpp"
@@ -151,7 +150,7 @@ void run_reversed(CLI::App& app, std::vector<std::string> words) {
   } catch (const CLI::Success& answer) {
     app.exit(answer);
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, usage_error_text(app, error));
+    throw usage_error(usage_error_text(app, error));
   }
 }
 
@@ -166,9 +165,8 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   // could have changed errno.
   if (!std::cout && errno == EPIPE) return 1;
   if (!std::cout)
-    throw Error(ErrorKind::kOutput,
-                "standard output: cannot be written" +
-                    (errno == 0 ? std::string() : ": " + std::string(std::strerror(errno))));
+    throw output_error("standard output: cannot be written" +
+                       (errno == 0 ? std::string() : ": " + std::string(std::strerror(errno))));
   return 0;
 }
 

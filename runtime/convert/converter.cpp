@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "stages/stage.hpp"
 
 namespace remap {
@@ -10,8 +10,8 @@ namespace {
 
 void require_channels(std::size_t count) {
   if (count != 1 && count != 3)
-    throw Error(ErrorKind::kUsage,
-                "converter: got " + std::to_string(count) + " specular channels (1 or 3 are supported)");
+    throw usage_error("converter: got " + std::to_string(count) +
+                      " specular channels (1 or 3 are supported)");
 }
 
 }  // namespace

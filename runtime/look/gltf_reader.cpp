@@ -1,6 +1,5 @@
 #include <array>
 
-#include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_images.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
@@ -8,7 +7,7 @@
 #include "assets/gltf/material_textures.hpp"
 #include "assets/maps/map_pixels.hpp"
 #include "core/json_spans.hpp"
-#include "look/asset_reader.hpp"
+#include "look/material_looks.hpp"
 
 namespace remap {
 namespace {

@@ -8,7 +8,7 @@
 #include "assets/mtl/mtl_material.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"
-#include "look/asset_reader.hpp"
+#include "look/material_looks.hpp"
 
 namespace remap {
 namespace {

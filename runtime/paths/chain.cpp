@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "remap/path.hpp"
 
 namespace remap {
@@ -16,9 +16,8 @@ void require_joined(const std::vector<const Converter*>& steps) {
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const ConverterInfo &before = steps[i]->info(), &after = steps[i + 1]->info();
     if (before.target == after.source) continue;
-    throw Error(ErrorKind::kInput, before.id + " then " + after.id + ": the first converts to " +
-                                       side_text(before.target) + ", but the second converts from " +
-                                       side_text(after.source));
+    throw input_error(before.id + " then " + after.id + ": the first converts to " +
+                      side_text(before.target) + ", but the second converts from " + side_text(after.source));
   }
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "remap/error.hpp"
-#include "stages/workflow_stages.hpp"
+#include "core/plain_text.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {
@@ -291,8 +290,7 @@ namespace {
 // Adds the stages of the workflows around the BRDF.
 BuiltConversion with_material(BuiltConversion conversion, InstructionSet set) {
   if (conversion.brdf != nullptr && !conversion.brdf->self_test())
-    throw Error(ErrorKind::kNumeric,
-                conversion.brdf->info().id + ": self-test failed (results would be wrong)");
+    throw numeric_error(conversion.brdf->info().id + ": self-test failed (results would be wrong)");
   if (conversion.choice.is_material())
     conversion.material = make_workflow_converter(stages_of(conversion.choice, conversion.brdf), set);
   return conversion;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/nearest_name.hpp"
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "paths/path_search.hpp"
-#include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
 
 namespace remap {
@@ -37,9 +37,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   for (const std::string& model : known)
     if (!name.empty() && renderer_of(model) == name) of_renderer.push_back(model);
   if (!of_renderer.empty())
-    throw Error(ErrorKind::kUsage, name + ": is a renderer, not a model (choose one of its models: " +
-                                       joined(of_renderer, ", ") + ")");
-  throw Error(ErrorKind::kUsage, "unknown " + role + " '" + name + "'" + suggestion(name, known));
+    throw usage_error(
+        name + ": is a renderer, not a model (choose one of its models: " + joined(of_renderer, ", ") + ")");
+  throw usage_error("unknown " + role + " '" + name + "'" + suggestion(name, known));
 }
 
 }  // namespace
@@ -186,11 +186,10 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
-      throw Error(
-          ErrorKind::kUsage,
-          model + (model == request.source && model == request.target && request.via.empty()
-                       ? ": source and target are the same model (choose another model for one of them)"
-                       : ": the path would use this model twice (choose another model)"));
+      throw usage_error(model +
+                        (model == request.source && model == request.target && request.via.empty()
+                             ? ": source and target are the same model (choose another model for one of them)"
+                             : ": the path would use this model twice (choose another model)"));
     nodes.push_back(node(model));
   };
   add(request.source, "source model", sources);
@@ -207,13 +206,13 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     const auto legs = least_paths(*graph_, {waypoints[i], waypoints[i + 1]}, 1);
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
-      throw Error(ErrorKind::kUsage,
-                  from + " to " + to + ": no converters join these models (" + from + " can become " +
-                      (reached.empty() ? "no other model" : joined(reached, ", ")) +
-                      (reached.size() < 2 ? "" : "; most similar name: " + closest_name(to, reached)) + "; " +
-                      (reaching_it.empty() ? "no model can become " + to
-                                           : to + " can be made from " + joined(reaching_it, ", ")) +
-                      ")");
+      throw usage_error(from + " to " + to + ": no converters join these models (" + from + " can become " +
+                        (reached.empty() ? "no other model" : joined(reached, ", ")) +
+                        (reached.size() < 2 ? "" : "; most similar name: " + closest_name(to, reached)) +
+                        "; " +
+                        (reaching_it.empty() ? "no model can become " + to
+                                             : to + " can be made from " + joined(reaching_it, ", ")) +
+                        ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }
@@ -222,8 +221,8 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     if (std::find(walk.begin(), walk.begin() + static_cast<std::ptrdiff_t>(i), walk[i]) !=
         walk.begin() + static_cast<std::ptrdiff_t>(i))
       twice = walk[i];
-  throw Error(ErrorKind::kUsage, joined(walk, " -> ") + ": visits " + twice +
-                                     " twice, as every path through these models does (choose other models)");
+  throw usage_error(joined(walk, " -> ") + ": visits " + twice +
+                    " twice, as every path through these models does (choose other models)");
 }
 
 ModelSide ConverterGraph::side_of(const std::string& model) const {

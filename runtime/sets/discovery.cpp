@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;

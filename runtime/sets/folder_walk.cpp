@@ -8,10 +8,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "core/system.hpp"
-#include "remap/error.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -42,8 +42,7 @@ class Walker {
 
   Walk run() {
     visit(fs::path());
-    if (!walk_.problems.empty() && !root_was_read_)
-      throw Error(ErrorKind::kInput, walk_.problems.front().message);
+    if (!walk_.problems.empty() && !root_was_read_) throw input_error(walk_.problems.front().message);
     // Links come last, so that a folder below the root is found under its own name.
     while (!folders_.empty() || !links_.empty()) {
       std::set<std::string>& next = folders_.empty() ? links_ : folders_;

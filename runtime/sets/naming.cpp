@@ -5,8 +5,6 @@
 #include <optional>
 #include <tuple>
 
-#include "sets/name_pieces.hpp"
-
 namespace remap {
 
 // A NameParts holds the pieces of a name up to the word of the map. The resolution, the format and ignored

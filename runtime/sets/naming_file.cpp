@@ -4,7 +4,7 @@
 
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/surface.hpp"
 #include "sets/naming.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "remap/warp.hpp"
 
 namespace remap {
@@ -44,7 +44,7 @@ std::size_t power(std::size_t base, std::size_t exponent) noexcept {
 }
 
 void require(bool holds, const std::string& context, const char* found_and_expected) {
-  if (!holds) throw Error(ErrorKind::kInput, context + ": " + found_and_expected);
+  if (!holds) throw input_error(context + ": " + found_and_expected);
 }
 
 using Position = std::array<double, kLargestWarpDimension>;

@@ -4,7 +4,7 @@
 
 #include "remap/warp.hpp"
 #include "remap/workflow.hpp"
-#include "stages/workflow_stages.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {

@@ -1,7 +1,7 @@
 #include "stages/workflow_conventions.hpp"
 
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -14,9 +14,8 @@ void require_width(RoughnessEncoding width, const std::string& context) {
   if (width == RoughnessEncoding::kRoughness || width == RoughnessEncoding::kGlossiness ||
       width == RoughnessEncoding::kAlpha)
     return;
-  throw Error(ErrorKind::kInput, context + ": a workflow cannot store its roughness as " +
-                                     std::string(encoding_name(width)) +
-                                     " (choose roughness, glossiness or alpha)");
+  throw input_error(context + ": a workflow cannot store its roughness as " +
+                    std::string(encoding_name(width)) + " (choose roughness, glossiness or alpha)");
 }
 
 }  // namespace
@@ -27,14 +26,14 @@ void require_valid(const SpecularWorkflow& specular, const MetallicWorkflow& met
   require_width(metallic.width, context);
   const double f0 = metallic.dielectric_f0;
   if (!(f0 >= 0.0 && f0 <= kLargestDielectricF0))
-    throw Error(ErrorKind::kInput, context + ": dielectric F0 " + number_text(f0) +
-                                       " is out of range (0 to " + number_text(kLargestDielectricF0) + ")");
+    throw input_error(context + ": dielectric F0 " + number_text(f0) + " is out of range (0 to " +
+                      number_text(kLargestDielectricF0) + ")");
 }
 
 void require_prior(double prior, const std::string& context) {
   if (!(prior >= 0.0 && prior <= kLargestPrior))
-    throw Error(ErrorKind::kInput, context + ": prior " + number_text(prior) + " is out of range (0 to " +
-                                       number_text(kLargestPrior) + ")");
+    throw input_error(context + ": prior " + number_text(prior) + " is out of range (0 to " +
+                      number_text(kLargestPrior) + ")");
 }
 
 workflow_code::WidthParameter width_parameter(RoughnessEncoding width) {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/document/image_codec.hpp"
+#include "assets/document/asset.hpp"
 #include "core/files.hpp"
 #include "texture/image_layout.hpp"
 

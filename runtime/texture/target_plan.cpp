@@ -7,9 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -26,8 +24,7 @@ void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
-    throw Error(ErrorKind::kUsage,
-                "--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
+    throw usage_error("--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
 fs::path result_path(fs::path name, const TargetChoice& choice) {
@@ -37,24 +34,23 @@ fs::path result_path(fs::path name, const TargetChoice& choice) {
 
 void require_safe(const fs::path& output, const fs::path& input) {
   if (same_file(output, input))
-    throw Error(ErrorKind::kUsage, output.string() + ": would overwrite the input " + input.string() +
-                                       " (choose another folder)");
+    throw usage_error(output.string() + ": would overwrite the input " + input.string() +
+                      " (choose another folder)");
 }
 
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
-      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder (choose another folder)");
+      throw output_error(folder.string() + ": is a file, not a folder (choose another folder)");
   std::vector<fs::path> results;
   for (const PlannedFile& map : plan.maps) results.push_back(map.path);
   for (const PlannedFile& copy : plan.copies) results.push_back(copy.path);
   for (std::size_t i = 0; i < results.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       if (results[i] == results[k])
-        throw Error(ErrorKind::kUsage,
-                    results[i].string() + ": two results have this name (rename an input" +
-                        (choice.diagnosis_folder.empty() ? ")" : ", or give --diagnose another folder)"));
+        throw usage_error(results[i].string() + ": two results have this name (rename an input" +
+                          (choice.diagnosis_folder.empty() ? ")" : ", or give --diagnose another folder)"));
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedFile& copy : plan.copies) require_safe(results[i], copy.source);
   }
@@ -73,11 +69,10 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
     if (held)
-      throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         plain(reader.layout().channels[place.channel].name) +
-                                         " is used as both " + plain_name(*held) + " and " +
-                                         plain_name(parameter) +
-                                         " (choose another channel for one of them, such as orm.png:G)");
+      throw usage_error(reader.path().string() + ": channel " +
+                        plain(reader.layout().channels[place.channel].name) + " is used as both " +
+                        plain_name(*held) + " and " + plain_name(parameter) +
+                        " (choose another channel for one of them, such as orm.png:G)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};
@@ -248,8 +243,8 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bo
     return;
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
-    throw Error(ErrorKind::kInput,
-                source.string() + ": cannot be copied, because it is not a readable file (check the path)");
+    throw input_error(source.string() +
+                      ": cannot be copied, because it is not a readable file (check the path)");
   plan.copies.push_back({path, {}, source, turns_green});
 }
 
@@ -304,15 +299,14 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   for (const Parameter parameter : choice.parameters) {
     if (set.map_of(parameter) != nullptr) continue;
     if (set.parameters.count(parameter) == 0 && !is_input(parameter))
-      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input contains " +
-                                         std::string(parameter_name(parameter)) + " (use --layout separate)");
+      throw usage_error("--layout as-inputs: no input contains " + std::string(parameter_name(parameter)) +
+                        " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
   for (const Carried<SetParameter>& carried : set.carried) {
     if (!carried.parameter.is_map())
-      throw Error(ErrorKind::kUsage,
-                  "--" + carried.name +
-                      ": --layout as-inputs cannot store a number (give a map, or use another layout)");
+      throw usage_error("--" + carried.name +
+                        ": --layout as-inputs cannot store a number (give a map, or use another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
     const auto is_written = [&](const PlannedFile& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);
@@ -338,14 +332,13 @@ void require_held(const TargetChoice& choice) {
   };
   const std::string start = "--layout " + choice.layout.name + ": cannot hold ";
   if (lacks(Parameter::kSpecular, Parameter::kMetallic))
-    throw Error(ErrorKind::kUsage, start + "metallic (use --layout separate or --layout orm)");
+    throw usage_error(start + "metallic (use --layout separate or --layout orm)");
   if (lacks(Parameter::kMetallic, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage,
-                start + "diffuse and specular (use --layout separate or --layout specgloss)");
+    throw usage_error(start + "diffuse and specular (use --layout separate or --layout specgloss)");
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
-      throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
-                                         ", which would have an empty channel (remove one of the two)");
+      throw usage_error("--only cannot be used with --layout " + choice.layout.name +
+                        ", which would have an empty channel (remove one of the two)");
 }
 
 PlannedFile layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
@@ -432,10 +425,9 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
           throw usage_error(map.path.string() +
-                            ": would contain integers, but its roughness is an exponent "
-                            "(use --format exr; or --output-encoding exponent=1000 if white means an "
-                            "exponent of 1000, as in MTL files; "
-                            "OpenGL has 128)");
+                            ": would contain integers, but its roughness is an exponent (use --format exr; "
+                            "or --output-encoding exponent=1000 if white means an exponent of 1000, as in "
+                            "MTL files; OpenGL has 128)");
     }
 }
 

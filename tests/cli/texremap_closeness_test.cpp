@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "lower/fit_file.hpp"
 #include "remap/path.hpp"
 

@@ -12,7 +12,6 @@
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/mtl_document.hpp"
 #include "assets/document/text_edits.hpp"
-#include "assets/document/text_encoding.hpp"
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"

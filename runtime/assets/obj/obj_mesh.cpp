@@ -15,10 +15,10 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-#include "assets/document/text_encoding.hpp"
+#include "assets/document/text_edits.hpp"
 #include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 
 namespace remap {
 namespace {

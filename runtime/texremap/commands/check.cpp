@@ -10,18 +10,17 @@
 #include "check/rules.hpp"
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "core/packed_values.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 #include "sets/naming.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/named_paths.hpp"
+#include "texremap/plan/asset_formats.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/image_library.hpp"
 
@@ -112,9 +111,9 @@ void check(const CheckOptions& options) {
     embedded.push_back(std::move(own.embedded));
   }
   if (found.materials.empty() && found.problems.empty())
-    throw usage_error(options.paths.front().string() +
-                      ": no map found by file names, and no glTF or MTL file (use --names "
-                      "FILE for other names)");
+    throw usage_error(
+        options.paths.front().string() +
+        ": no map found by file names, and no glTF or MTL file (use --names FILE for other names)");
   std::vector<MaterialReport> reports(found.materials.size());
   Progress progress("materials", reports.size(), !options.quiet);
   const std::size_t threads =

@@ -6,10 +6,9 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/number_text.hpp"
+#include "core/system.hpp"
 #include "texremap/commands/commands.hpp"
-#include "texremap/plan/asset_jobs.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
 #include "texture/content_hash.hpp"
@@ -41,8 +40,8 @@ TreeManifest tree_of_sets(const IndexOptions& options) {
   });
   if (tree.found.sets.empty() && tree.found.problems.empty())
     throw usage_error(options.folder.string() +
-                      ": no texture set found by file names (use --names FILE for other names, or "
-                      "--assets for glTF and MTL files)");
+                      ": no texture set found by file names (use --names FILE for other names, or --assets "
+                      "for glTF and MTL files)");
   return tree;
 }
 

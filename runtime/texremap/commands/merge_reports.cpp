@@ -6,7 +6,7 @@
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/report/part_report.hpp"
 

@@ -6,10 +6,9 @@
 #include <thread>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "core/system.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -139,7 +138,7 @@ double number_of(const std::string& option, const std::string& text, double high
                  const std::string& allowed) {
   const auto number = parse_number(text);
   if (!number || !(*number >= 0.0 && *number <= highest))
-    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
+    throw usage_error(option + ": invalid value '" + text + "' (use " + allowed + ")");
   return *number;
 }
 
@@ -572,7 +571,7 @@ std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options) {
 
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
   for (const GivenOption& option : options.given)
-    if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
+    if ((option.tags & tag) != 0) throw usage_error(option.name + reason);
 }
 
 std::string result_options_text(const ConvertOptions& options) {

@@ -4,10 +4,9 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/safe_relative.hpp"
 #include "sets/folder_walk.hpp"
-#include "texture/enlarged_pixels.hpp"
 #include "texture/image_library.hpp"
+#include "texture/image_reader.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -26,8 +25,7 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
       throw input_error(display_path(path) + ": is outside the " +
                         (root.lexically_normal() == "." ? "current folder" : "folder " + display_path(root)) +
                         " (copy this file into the folder, or give a larger folder before the asset: "
-                        "texremap convert FOLDER "
-                        "ASSET)");
+                        "texremap convert FOLDER ASSET)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
     throw input_error(display_path(path) + ": has a name that texremap uses for its own files (rename it)");

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/maps/workflow_values.hpp"
+#include "assets/maps/gltf_maps.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "paths/converter_file.hpp"
@@ -15,12 +14,10 @@
 #include "remap/warp.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_formats.hpp"
-#include "texremap/plan/asset_jobs.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/plan/named_paths.hpp"
-#include "texremap/plan/set_choice.hpp"
-#include "texremap/plan/set_jobs.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/plan/workflow_choice.hpp"
 
 namespace remap {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "assets/document/asset.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/conversion_note.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"

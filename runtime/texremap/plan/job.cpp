@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "core/safe_relative.hpp"
 #include "sets/folder_walk.hpp"
 
 namespace remap {

@@ -1,5 +1,3 @@
-#include "texremap/plan/set_jobs.hpp"
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,14 +5,14 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
-#include "remap/error.hpp"
+#include "core/number_text.hpp"
 #include "sets/discovery.hpp"
 #include "sets/folder_walk.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "texremap/plan/conversion_request.hpp"
-#include "texremap/plan/set_choice.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/plan/workflow_choice.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -159,9 +157,9 @@ JobList SetJobs::list() {
   if (options_.part) return std::move(jobs_);  // a part does not see all sets
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.skipped.empty())
-    throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
-                                       (options_.recursive ? "" : "--recursive for subfolders, or ") +
-                                       "--names FILE for other names)");
+    throw usage_error(root_.string() + ": no texture set found by file names (use " +
+                      (options_.recursive ? "" : "--recursive for subfolders, or ") +
+                      "--names FILE for other names)");
   return std::move(jobs_);
 }
 
@@ -466,9 +464,9 @@ void SetJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
-    throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: has no effect, because the file names of all maps give "
-                "the encoding (remove this option)");
+    throw usage_error(
+        "--roughness-encoding: has no effect, because the file names of all maps give the encoding (remove "
+        "this option)");
 }
 
 // Reserves the names of a set's results, and of copies of its maps. If another set has one of these names,
@@ -521,8 +519,7 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
   std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
   for (std::size_t i = 0; i < tiled.size(); ++i) {
     const Tiles own = existing_tiles(tiled[i].file);
-    if (own.empty())
-      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
+    if (own.empty()) throw input_error(tiled[i].file.string() + ": no " + list.tile_noun + " found");
     for (const auto& [number, file] : own) tiles[number].insert(i);
   }
   for (const auto& [number, present] : tiles) {

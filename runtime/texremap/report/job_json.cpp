@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "texremap/plan/converter_text.hpp"
 
 namespace remap {

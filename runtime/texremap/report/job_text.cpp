@@ -4,13 +4,12 @@
 #include <iostream>
 
 #include "command_line/run_app.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
+#include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/run/planned_roles.hpp"
+#include "texremap/run/job_report.hpp"
 
 namespace remap {
 namespace {

@@ -1,5 +1,3 @@
-#include "texremap/report/report_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,15 +10,16 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
+#include "core/number_text.hpp"
 #include "core/packed_values.hpp"
-#include "core/report_text.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/environment.hpp"
 #include "look/scene.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/report/job_looks.hpp"
+#include "texremap/report/reporter.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/image_library.hpp"

@@ -6,8 +6,8 @@
 
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/conversion.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"

@@ -1,12 +1,13 @@
 // This file prints the output of `texremap convert`: text to standard error, and JSON to standard output and
-// into the report of a part (part_report.hpp).
+// into the report of a part (part_report.hpp). It also writes the report page, one HTML file that shows
+// materials.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "core/json.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "texremap/plan/convert_plan.hpp"
 #include "texremap/report/job_text.hpp"
 #include "texremap/run/job_report.hpp"
@@ -39,5 +40,11 @@ class Reporter {
 // Converts the numbers of a plan without maps, and prints them. Throws kUsage for a factor without an
 // exponent.
 void print_converted_numbers(const ConvertPlan& plan);
+
+// Writes `plan.report`, about a finished conversion or a dry run (docs/report.md). It shows the first 16
+// materials. One material has maps of at most 1024 texels a side, more materials have smaller ones. What
+// cannot be shown becomes a note. If nothing can be shown, it prints a warning and writes nothing. Throws
+// kOutput.
+void write_report_page(const ConvertPlan& plan, const std::vector<JobReport>& reports);
 
 }  // namespace remap

@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "core/errors.hpp"
 #include "core/packed_values.hpp"
 #include "core/parallel.hpp"

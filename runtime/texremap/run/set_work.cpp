@@ -2,12 +2,12 @@
 #include <functional>
 #include <memory>
 
-#include "check/color_issue.hpp"
-#include "command_line/interruption.hpp"
+#include "check/rules.hpp"
+#include "command_line/progress.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/number_text.hpp"
+#include "core/system.hpp"
 #include "remap/version.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/run/run_jobs.hpp"
@@ -73,9 +73,8 @@ void require_not_converted(const TextureSet& set, const BuiltConversion& chosen,
     std::optional<std::string> model = map.noted_metadata("remap:target");
     if (!model) model = journals.target_of(*map.file());
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
-      throw Error(ErrorKind::kUsage, map.path().string() + ": was already converted to " + *model +
-                                         ", but would be read as " + source +
-                                         " (--force converts it anyway)");
+      throw usage_error(map.path().string() + ": was already converted to " + *model +
+                        ", but would be read as " + source + " (--force converts it anyway)");
   }
 }
 

@@ -1,5 +1,3 @@
-#include "texture/openimageio/image_head.hpp"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -7,8 +5,9 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
+#include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
 namespace {
@@ -265,8 +264,7 @@ ImageHead checked_head(const ImageBytes& image, const std::string& context, Imag
                        : use == ImageUse::kAsset
                            ? "is not an image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa)"
                            : "cannot be read as an image: unknown format (PNG, JPEG, WebP, BMP, TIFF, Targa, "
-                             "OpenEXR and Radiance HDR "
-                             "are read)"));
+                             "OpenEXR and Radiance HDR are read)"));
   }
   if (head.format == "png") {
     look_at_png(image, context, head);

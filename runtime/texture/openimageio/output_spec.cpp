@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -166,7 +166,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
                             const std::filesystem::path& path) {
   const std::string format = output.format_name();
   const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::kOutput, path.string() + ": format " + format + " " + what);
+    throw output_error(path.string() + ": format " + format + " " + what);
   };
   OIIO::ImageSpec spec = model;
   for (const char* name : kPixelSummaries) spec.erase_attribute(name);

@@ -15,7 +15,6 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -93,9 +92,9 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
     const std::string name = spec.channel_name(c);
     const auto type = pixel_type(spec.channelformat(c));
     if (!type)
-      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " has the unsupported type " +
-                                         spec.channelformat(c).c_str() +
-                                         " (use integers of up to 32 bits, half, float or double)");
+      throw input_error(path.string() + ": channel " + name + " has the unsupported type " +
+                        spec.channelformat(c).c_str() +
+                        " (use integers of up to 32 bits, half, float or double)");
     layout.channels.push_back({name, *type, layout.texel_bytes});
     layout.texel_bytes += byte_count(*type);
   }

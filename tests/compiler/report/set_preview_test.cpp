@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scene.hpp"
 #include "report/preview.hpp"

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "remap/error.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/features.hpp"

@@ -1,12 +1,12 @@
 // This file tests signals that ask a program to stop. Each case runs in a separate process.
-#include "command_line/interruption.hpp"
-
 #include <csignal>
 #include <functional>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+
+#include "command_line/progress.hpp"
 
 using namespace remap;
 

@@ -1,12 +1,11 @@
 // This file tests the similarity of pictures against scikit-image and closed forms.
-#include "look/image_similarity.hpp"
-
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "look/image.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

@@ -8,7 +8,7 @@
 #include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "runtime/convert/texel_rows.hpp"
-#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/sets/set_session.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 using namespace remap;
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "stages/workflow_stages.hpp"
+#include "stages/stage.hpp"
 
 using namespace remap;
 

@@ -1,10 +1,9 @@
 // This file tests texts of bytes and of UTF-16, and MTL and OBJ files in both encodings.
-#include "assets/document/text_encoding.hpp"
-
 #include <random>
 
 #include <catch2/catch.hpp>
 
+#include "assets/document/text_edits.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"
 #include "runtime/assets/mtl_texts.hpp"
