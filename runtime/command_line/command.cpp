@@ -182,8 +182,7 @@ void Command::option_group(const std::string& name) { app_->option_defaults()->g
 
 Option* Command::option(const std::string& name) {
   const CLI::Option* wanted = app_->get_option(name);
-  return std::find_if(options_.begin(), options_.end(),
-                      [wanted](const auto& option) { return option->option_ == wanted; })
+  return std::ranges::find_if(options_, [wanted](const auto& option) { return option->option_ == wanted; })
       ->get();
 }
 

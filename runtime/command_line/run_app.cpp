@@ -67,7 +67,7 @@ std::string extra_text(const CLI::App& command, const std::vector<std::string>& 
   const std::vector<std::string> commands = command_names(command);
   if (!commands.empty() && !is_option(extras.front()))
     return "unknown command '" + extras.front() + "'" + did_you_mean(extras.front(), commands, command);
-  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  const auto option = std::ranges::find_if(extras, is_option);
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
     return "unknown option " + name + did_you_mean(name, option_names(command), command);
@@ -199,7 +199,7 @@ void run_words(Command& command, std::vector<std::string> words) {
 
 void print_message(const std::string& program, const std::string& message) {
   std::string line = program + ": " + message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::ranges::replace(line, '\n', ' ');
   std::cerr << plain(line, kLongestLine) << std::endl;
 }
 

@@ -17,11 +17,11 @@ void require_channels(std::size_t count) {
 }  // namespace
 
 bool Converter::has_source(Parameter parameter) const noexcept {
-  return std::find(sources_.begin(), sources_.end(), parameter) != sources_.end();
+  return std::ranges::find(sources_, parameter) != sources_.end();
 }
 
 bool Converter::has_target(Parameter parameter) const noexcept {
-  return std::find(targets_.begin(), targets_.end(), parameter) != targets_.end();
+  return std::ranges::find(targets_, parameter) != targets_.end();
 }
 
 std::size_t Converter::target_channels(Parameter parameter, std::size_t specular_channels) const noexcept {
@@ -51,8 +51,8 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   in[Parameter::kRoughness] = {{width}, 1};
   out[Parameter::kRoughness] = {{width_out}, 1};
   in[Parameter::kSpecular].count = out[Parameter::kSpecular].count = specular.size();
-  std::copy(specular.begin(), specular.end(), in[Parameter::kSpecular].row.begin());
-  std::copy(specular_out.begin(), specular_out.end(), out[Parameter::kSpecular].row.begin());
+  std::ranges::copy(specular, in[Parameter::kSpecular].row.begin());
+  std::ranges::copy(specular_out, out[Parameter::kSpecular].row.begin());
   return convert(count, in, out, outside);
 }
 

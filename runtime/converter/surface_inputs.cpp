@@ -226,7 +226,7 @@ std::string parameter_option(Parameter parameter) {
   if (is_input(parameter) || parameter == Parameter::kMetalMask || parameter == Parameter::kOcclusion)
     return "--input " + plain_name(parameter);
   std::string option = "--" + plain_name(parameter);
-  std::replace(option.begin(), option.end(), '_', '-');
+  std::ranges::replace(option, '_', '-');
   return option;
 }
 

@@ -50,7 +50,7 @@ bool is_plain(const Character& character) {
                                              {0x200e, 0x200f},  {0x2028, 0x202e}, {0x2066, 0x2069},
                                              {0xfeff, 0xfeff}};
   const std::uint32_t code = character.code;
-  return character.is_valid && std::none_of(kRefused.begin(), kRefused.end(), [code](const Codes& codes) {
+  return character.is_valid && std::ranges::none_of(kRefused, [code](const Codes& codes) {
            return code >= codes.first && code <= codes.second;
          });
 }

@@ -216,7 +216,7 @@ std::vector<float> resampled(const float* from, std::size_t width, std::size_t c
   std::vector<double> sum(channels);
   for (const auto& row : rows)
     for (const auto& column : columns) {
-      std::fill(sum.begin(), sum.end(), 0.0);
+      std::ranges::fill(sum, 0.0);
       for (const Share& r : row)
         for (const Share& c : column) {
           const float* texel = from + (r.source * width + c.source) * channels;

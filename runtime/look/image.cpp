@@ -20,9 +20,8 @@ std::array<std::size_t, 3> color_channels(const std::vector<std::string>& names,
   if (names.size() == 1) return {0, 0, 0};
   std::array<std::size_t, 3> named{};
   for (std::size_t c = 0; c < named.size(); ++c)
-    named[c] = static_cast<std::size_t>(std::find(names.begin(), names.end(), std::string(1, "RGB"[c])) -
-                                        names.begin());
-  if (std::find(named.begin(), named.end(), names.size()) == named.end()) return named;
+    named[c] = static_cast<std::size_t>(std::ranges::find(names, std::string(1, "RGB"[c])) - names.begin());
+  if (std::ranges::find(named, names.size()) == named.end()) return named;
   if (names.size() >= 3) return {0, 1, 2};
   throw input_error(path.string() + ": 2 channels found (provide R, G, B or one channel)");
 }

@@ -85,7 +85,7 @@ std::vector<float> spread(const Range& range, std::size_t count) {
 
 bool all_within(const std::vector<float>& values, const Range& range) {
   const float low = float_of(range.min), high = float_of(range.max);
-  return std::all_of(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
+  return std::ranges::all_of(values, [&](float v) { return v >= low && v <= high; });
 }
 
 enum class Look { kRoughness, kBoth };

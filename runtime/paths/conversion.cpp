@@ -228,7 +228,7 @@ std::vector<Parameter> ConversionChoice::targets() const {
 
 bool ConversionChoice::has_source(Parameter parameter) const {
   const std::vector<Parameter> all = sources();
-  return std::find(all.begin(), all.end(), parameter) != all.end();
+  return std::ranges::find(all, parameter) != all.end();
 }
 
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {

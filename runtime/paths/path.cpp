@@ -21,13 +21,13 @@ double middle_alpha(const ConverterInfo& info) {
 
 // Returns the names sorted, each name once.
 std::vector<std::string> unique_names(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 // Refuses a name that is not one of the `known` models.
@@ -84,8 +84,8 @@ std::string renderer_of(const std::string& model) {
 
 ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours detours)
     : converters_(std::move(converters)), graph_(std::make_shared<DirectedGraph>()) {
-  std::sort(converters_.begin(), converters_.end(),
-            [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
+  std::ranges::sort(converters_,
+                    [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
   for (const Converter* converter : converters_) {
     models_.push_back(converter->info().source.model);
     models_.push_back(converter->info().target.model);
@@ -185,7 +185,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   std::vector<std::size_t> nodes;
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
-    if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
+    if (std::ranges::find(nodes, node(model)) != nodes.end())
       throw usage_error(model +
                         (model == request.source && model == request.target && request.via.empty()
                              ? ": source and target are the same model (choose another model for one of them)"
@@ -259,19 +259,18 @@ bool is_less(const ConverterPath& a, const ConverterPath& b) {
 }  // namespace
 
 bool is_copy(const ConverterPath& path) {
-  return std::all_of(path.steps.begin(), path.steps.end(),
-                     [](const Converter* step) { return step->info().is_copy; });
+  return std::ranges::all_of(path.steps, [](const Converter* step) { return step->info().is_copy; });
 }
 
 bool is_measured(const ConverterPath& path) {
-  return std::all_of(path.steps.begin(), path.steps.end(),
-                     [](const Converter* step) { return step->info().image_rms_error.has_value(); });
+  return std::ranges::all_of(path.steps,
+                             [](const Converter* step) { return step->info().image_rms_error.has_value(); });
 }
 
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths) {
   std::vector<double> areas;
   for (const ConverterPath& path : paths) areas.push_back(covered_area(path));
-  const double least_area = kLeastCoverage * *std::max_element(areas.begin(), areas.end());
+  const double least_area = kLeastCoverage * *std::ranges::max_element(areas);
   const ConverterPath* closest = nullptr;
   for (std::size_t i = 0; i < paths.size(); ++i)
     if (areas[i] >= least_area && (closest == nullptr || is_less(paths[i], *closest))) closest = &paths[i];

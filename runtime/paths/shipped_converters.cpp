@@ -83,7 +83,7 @@ std::vector<ConverterData> read_data(const fs::path& path) {
 }
 
 ConverterList make_converters(std::vector<ConverterData> all, InstructionSet set) {
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
+  std::ranges::sort(all, [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
   ConverterList made;
   for (const ConverterData& data : all) made.push_back(make_converter(data, set));
   return made;

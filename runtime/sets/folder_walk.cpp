@@ -77,7 +77,7 @@ class Walker {
     else
       root_was_read_ = true;
     if (images.empty()) return;
-    std::sort(images.begin(), images.end());
+    std::ranges::sort(images);
     walk_.images.emplace(relative, std::move(images));
   }
 

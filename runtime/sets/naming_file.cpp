@@ -20,7 +20,7 @@ namespace {
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
   field.require(field.json().fields() != nullptr, "an object");
   for (const auto& [key, value] : *field.json().fields())
-    if (std::find(known.begin(), known.end(), key) == known.end())
+    if (std::ranges::find(known, key) == known.end())
       field.fail("unknown field '" + key + "'" + suggestion(key, known));
 }
 

@@ -27,7 +27,7 @@ bool is_udim(int number) { return number >= kFirstUdim && number <= kLastUdim; }
 
 // Returns the number that `digits` spells. Returns nothing for other text and for too many digits.
 std::optional<int> digits_value(std::string_view digits) {
-  if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit))
+  if (digits.empty() || digits.size() > kMostDigits || !std::ranges::all_of(digits, is_digit))
     return std::nullopt;
   int value = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -211,11 +211,10 @@ std::vector<TileGroup> group_tiles(std::span<const std::string> names) {
     }
     TileGroup group{pattern.text(), pattern, {}};
     for (const Candidate& candidate : candidates) group.numbers.push_back(candidate.number);
-    std::sort(group.numbers.begin(), group.numbers.end());
+    std::ranges::sort(group.numbers);
     groups.push_back(std::move(group));
   }
-  std::sort(groups.begin(), groups.end(),
-            [](const TileGroup& a, const TileGroup& b) { return a.name < b.name; });
+  std::ranges::sort(groups, [](const TileGroup& a, const TileGroup& b) { return a.name < b.name; });
   return groups;
 }
 

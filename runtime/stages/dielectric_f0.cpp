@@ -11,8 +11,8 @@ namespace code = workflow_code;
 
 bool has_nan(const SpecularMaterial& material) {
   const auto is_nan = [](float value) { return std::isnan(value); };
-  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_nan) ||
-         std::any_of(material.specular.begin(), material.specular.end(), is_nan) || is_nan(material.width);
+  return std::ranges::any_of(material.diffuse, is_nan) || std::ranges::any_of(material.specular, is_nan) ||
+         is_nan(material.width);
 }
 
 code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& material) {

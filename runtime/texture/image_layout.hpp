@@ -39,8 +39,8 @@ struct ImageLayout {
 
 // Returns true if two images have the same number of channels with the same types.
 inline bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept {
-  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
-                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
+  return std::ranges::equal(a.channels, b.channels,
+                            [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
 
 // Returns a channel of rows that have this layout.

@@ -23,7 +23,7 @@ namespace {
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
-  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
+  if (std::ranges::find(kExtensions, extension) == kExtensions.end())
     throw usage_error("--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
@@ -57,7 +57,7 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
 }
 
 bool is_wanted(const TargetChoice& choice, Parameter parameter) {
-  return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
+  return std::ranges::find(choice.parameters, parameter) != choice.parameters.end();
 }
 
 // Returns what a channel of a result holds if the result is made from `place`, a channel of an input map.
@@ -65,7 +65,7 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
   std::optional<TargetChannel> content;
   std::optional<Parameter> held;
   for (const auto& [parameter, values] : set.parameters) {
-    const auto found = std::find(values.channels.begin(), values.channels.end(), place);
+    const auto found = std::ranges::find(values.channels, place);
     if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
     if (held)
@@ -230,17 +230,15 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
   std::vector<std::size_t> parts;
   for (std::size_t map = 0; map < set.maps.size(); ++map)
     if (map == first || same_file(set.maps[map].path(), set.maps[first].path())) parts.push_back(map);
-  std::sort(parts.begin(), parts.end(),
-            [&](std::size_t a, std::size_t b) { return set.maps[a].part() < set.maps[b].part(); });
+  std::ranges::sort(parts,
+                    [&](std::size_t a, std::size_t b) { return set.maps[a].part() < set.maps[b].part(); });
   return parts;
 }
 
 // Adds a copy, unless the plan already writes or copies a file of this name.
 void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bool turns_green = false) {
   const auto is_there = [&](const auto& result) { return result.path == path; };
-  if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
-      std::any_of(plan.copies.begin(), plan.copies.end(), is_there))
-    return;
+  if (std::ranges::any_of(plan.maps, is_there) || std::ranges::any_of(plan.copies, is_there)) return;
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
     throw input_error(source.string() +
@@ -287,7 +285,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
       TargetPart part{map, changes_of(choice), {}};
       for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
         part.channels.push_back(content_of(set, {map, c}, choice));
-      const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
+      const bool is_changed = std::ranges::any_of(part.channels, is_converted);
       if (!is_changed) part.changes.type = std::nullopt;  // an unchanged part keeps its pixel type
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
@@ -311,7 +309,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
     const auto is_written = [&](const PlannedFile& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);
     };
-    if (std::none_of(plan.maps.begin(), plan.maps.end(), is_written))
+    if (std::ranges::none_of(plan.maps, is_written))
       add_copy(source, choice.folder / source.filename(), plan);
   }
   return plan;

@@ -42,22 +42,22 @@ std::optional<std::vector<float>> numbers(std::string_view text) {
 
 void require_usable(std::string_view option, std::string_view text, const std::vector<float>& values,
                     const std::string& expected) {
-  const bool usable = std::all_of(values.begin(), values.end(),
-                                  [](float value) { return std::isfinite(value) && value >= 0.0f; });
+  const bool usable =
+      std::ranges::all_of(values, [](float value) { return std::isfinite(value) && value >= 0.0f; });
   if (usable && (values.size() == 1 || values.size() == 3)) return;
   throw usage_error(std::string(option) + ": invalid value '" + std::string(text) + "' (give " + expected +
                     ")");
 }
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+  return std::ranges::equal(a, b, [](char x, char y) {
     return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
   });
 }
 
 std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_view name) {
-  const auto found = std::find_if(layout.channels.begin(), layout.channels.end(),
-                                  [&](const Channel& channel) { return same_word(channel.name, name); });
+  const auto found = std::ranges::find_if(
+      layout.channels, [&](const Channel& channel) { return same_word(channel.name, name); });
   if (found == layout.channels.end()) return std::nullopt;
   return static_cast<std::size_t>(found - layout.channels.begin());
 }
@@ -315,7 +315,7 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
       fs::exists(fs::path(text), none))
     return MapName{fs::path(text), {}};
   const std::vector<std::string> channels = parts_between(text.substr(colon + 1), ',');
-  const bool named = std::none_of(channels.begin(), channels.end(), [](auto& name) { return name.empty(); });
+  const bool named = std::ranges::none_of(channels, [](auto& name) { return name.empty(); });
   if (!named || (channels.size() != 1 && channels.size() != 3))
     throw usage_error(std::string(option) + ": invalid channels in '" + std::string(text) +
                       "' (use FILE:CHANNEL or FILE:R,G,B)");
@@ -330,9 +330,8 @@ std::vector<float> parse_factors(std::string_view option, std::string_view text)
 
 bool TextureSet::holds(const ChannelPlace& place) const {
   const std::vector<const SetParameter*> mapped = mapped_parameters(*this);
-  return std::any_of(mapped.begin(), mapped.end(), [&](const SetParameter* parameter) {
-    return std::find(parameter->channels.begin(), parameter->channels.end(), place) !=
-           parameter->channels.end();
+  return std::ranges::any_of(mapped, [&](const SetParameter* parameter) {
+    return std::ranges::find(parameter->channels, place) != parameter->channels.end();
   });
 }
 

@@ -218,10 +218,9 @@ void add_list_command(Command& app) {
       "--pairs", options.pairs,
       "List the converters instead: their ranges, how far pictures differ, and their self-tests");
   command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
-  command->add_flag(
-      "--workflows", options.workflows,
-      "List the named workflows with their conventions. Other models get a workflow before their "
-      "name, such as --from specular:mitsuba/ward");
+  command->add_flag("--workflows", options.workflows,
+                    "List the named workflows with their conventions. Other models get a workflow before "
+                    "their name, such as --from specular:mitsuba/ward");
   options.converters.add_option(*command);
   command->add_flag("--json", options.json, "Print JSON");
   command->footer("Example:\n  texremap list\n  texremap list --pairs --json");

@@ -73,7 +73,7 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
   const std::vector<Parameter> targets = workflow.targets();
   for (const Parameter parameter :
        {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kMetallic}) {
-    const bool is_result = std::find(targets.begin(), targets.end(), parameter) != targets.end();
+    const bool is_result = std::ranges::find(targets, parameter) != targets.end();
     // Without a workflow, colors are copied and metallic has a place in some layouts.
     const bool has_place = !workflow.is_material() || (parameter == Parameter::kMetallic && !is_result);
     if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)

@@ -48,7 +48,7 @@ BuiltConversion conversion_of(const ConvertOptions& options, const WarpMapFit* w
 }
 
 bool are_constants(const TextureSetRequest& request) {
-  return std::all_of(request.parameters.begin(), request.parameters.end(), [](const auto& entry) {
+  return std::ranges::all_of(request.parameters, [](const auto& entry) {
     return std::holds_alternative<ConstantValues>(entry.second.source);
   });
 }

@@ -229,9 +229,9 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
-                    " does not read, so metals get a wrong specular (--from metallic converts the whole "
-                    "material)");
+    notes.push_back(
+        context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+        " does not read, so metals get a wrong specular (--from metallic converts the whole material)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -247,10 +247,9 @@ void SetJobs::add(FoundSet set) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter))
-      return fail(
-          context(set) + ": has a " + std::string(role_name(found.front().role)) +
-          " map, but the warp converts only a diffuse map (use a warp that was made for all maps, or give "
-          "--diffuse MAP instead of the folder)");
+      return fail(context(set) + ": has a " + std::string(role_name(found.front().role)) +
+                  " map, but the warp converts only a diffuse map (use a warp that was made for all maps, or "
+                  "give --diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(context(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
       return fail(context(set) + ": no " + name + " map found (for sets without this map, use " +
@@ -349,9 +348,8 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
       if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
       const std::string name(role_name(entry.role));
       const std::optional<fs::path> file = file_of(map, tile);
-      const bool is_named =
-          std::any_of(request.carried.begin(), request.carried.end(),
-                      [&](const Carried<ParameterRequest>& carried) { return carried.name == name; });
+      const bool is_named = std::ranges::any_of(
+          request.carried, [&](const Carried<ParameterRequest>& carried) { return carried.name == name; });
       if (file && !is_named)
         request.carried.push_back(
             {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
@@ -391,8 +389,7 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
       work.green = stated_green(source.filename().string())
                        .value_or(normals_of(options_.from).value_or(NormalGreen::kUp));
     }
-    if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
-      continue;
+    if (std::ranges::any_of(read, [&](const fs::path* known) { return *known == source; })) continue;
     if (!comes_along(map)) {
       work.left_behind.push_back(source);
       continue;
@@ -463,7 +460,7 @@ void SetJobs::note_sizes(Job& job) const {
 void SetJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
-  if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
+  if (std::ranges::none_of(converted_, speaks_of))
     throw usage_error(
         "--roughness-encoding: has no effect, because the file names of all maps give the encoding (remove "
         "this option)");

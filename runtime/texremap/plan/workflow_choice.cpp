@@ -27,10 +27,9 @@ void require_workflow(const ConvertOptions& options, const ConversionChoice& cho
            " cannot be used, because this conversion changes the maps of a material together (remove this "
            "option)");
   else
-    refuse(
-        options, kNeedsWorkflow | kNeedsMetallic,
-        " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or choose a "
-        "model of texremap list --workflows)");
+    refuse(options, kNeedsWorkflow | kNeedsMetallic,
+           " requires a workflow (write one before the model, such as --from specular:mitsuba/ward, or "
+           "choose a model of texremap list --workflows)");
   if (choice.translation)
     refuse(options, kNeedsMetallic,
            ": has no effect, because formulas convert every input between these models (remove this option)");

@@ -252,8 +252,8 @@ void print_colors(const ColorNotes& colors, bool has_several) {
         phrase += is_written ? " (--output-color-space)" : " (--color-space)";
       if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
         phrase += is_written ? " (as in the source map)" : " (as the file's tag states)";
-      const auto known = std::find_if(phrases.begin(), phrases.end(),
-                                      [&](const auto& entry) { return entry.first == phrase; });
+      const auto known =
+          std::ranges::find_if(phrases, [&](const auto& entry) { return entry.first == phrase; });
       if (known == phrases.end())
         phrases.emplace_back(phrase, count);
       else

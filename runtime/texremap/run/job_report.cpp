@@ -22,7 +22,7 @@ JobReport JobReport::of(const Job& job) {
 JobReport& JobReport::operator+=(const JobReport& other) {
   const auto append = [](auto& all, const auto& more) {
     for (const auto& entry : more)
-      if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(entry);
+      if (std::ranges::find(all, entry) == all.end()) all.push_back(entry);
   };
   append(tiles, other.tiles);
   append(inputs, other.inputs);
