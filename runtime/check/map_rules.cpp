@@ -7,6 +7,7 @@
 #include "assets/maps/map_pixels.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "texture/normal_green.hpp"
 
 namespace remap::look {
@@ -114,9 +115,7 @@ std::vector<float> values_of(const std::vector<const Plane*>& planes) {
 }
 
 std::string list_text(const std::vector<float>& values) {
-  std::string text;
-  for (const float value : values) text += (text.empty() ? "" : ",") + number_text(rounded(value, 3));
-  return text;
+  return joined(values, ",", [](double value) { return number_text(rounded(value, 3)); });
 }
 
 // Returns true for the tiles of one map, which share role and channels.

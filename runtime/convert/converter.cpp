@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "stages/stage.hpp"
 
@@ -16,13 +17,9 @@ void require_channels(std::size_t count) {
 
 }  // namespace
 
-bool Converter::has_source(Parameter parameter) const noexcept {
-  return std::ranges::find(sources_, parameter) != sources_.end();
-}
+bool Converter::has_source(Parameter parameter) const noexcept { return contains(sources_, parameter); }
 
-bool Converter::has_target(Parameter parameter) const noexcept {
-  return std::ranges::find(targets_, parameter) != targets_.end();
-}
+bool Converter::has_target(Parameter parameter) const noexcept { return contains(targets_, parameter); }
 
 std::size_t Converter::target_channels(Parameter parameter, std::size_t specular_channels) const noexcept {
   if (!is_color(parameter)) return 1;

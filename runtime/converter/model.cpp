@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/contains.hpp"
+
 namespace remap {
 namespace {
 
@@ -37,8 +39,7 @@ constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linu
 bool is_taken(std::string_view id) {
   const bool is_std =
       id.starts_with("std") && id.find_first_not_of("0123456789", 3) == std::string_view::npos;
-  return is_std || std::ranges::find(kTakenNames, id) != kTakenNames.end() ||
-         std::ranges::find(kKeywords, id) != kKeywords.end();
+  return is_std || contains(kTakenNames, id) || contains(kKeywords, id);
 }
 
 std::string identifier(const std::string& model) {

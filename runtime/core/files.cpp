@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "core/plain_text.hpp"
@@ -287,7 +288,7 @@ fs::path checked(const std::string& text, const std::string& context, std::strin
 std::string fault_of_relative(const std::string& text) {
   const fs::path path = text;
   if (path.has_root_path()) return "is an absolute path";
-  if (std::ranges::find(path, "..") != path.end()) return "leads out of its folder";
+  if (contains(path, "..")) return "leads out of its folder";
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   return std::ranges::any_of(text, is_control) ? "has control characters" : "";
 }

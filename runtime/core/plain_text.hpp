@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,14 @@ std::vector<std::string> nearest_names(std::string_view name, std::vector<std::s
 
 // Returns `names` in one line, with `between` between two names.
 std::string joined(std::span<const std::string> names, std::string_view between);
+// Joins the texts that `text_of` makes of the items, in the same way.
+template <typename Items, typename TextOf>
+std::string joined(const Items& items, std::string_view between, TextOf text_of) {
+  std::string text;
+  for (const auto& item : items)
+    (text += text.empty() ? std::string_view() : between) += std::invoke(text_of, item);
+  return text;
+}
 
 // Returns the end of a message: ` (did you mean X?)` if a name is close, otherwise ` (choose A, B, C)`.
 // Returns an empty text without candidates.

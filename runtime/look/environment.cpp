@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/plain_text.hpp"
 #include "look/image.hpp"
 
 namespace remap {
@@ -150,9 +151,7 @@ void require_names_differ(const std::vector<Environment>& environments) {
 }
 
 std::string environment_names(const std::vector<Environment>& environments) {
-  std::string names;
-  for (const Environment& environment : environments) names += (names.empty() ? "" : ", ") + environment.name;
-  return names;
+  return joined(environments, ", ", &Environment::name);
 }
 
 double mean_luminance(const Environment& environment) {

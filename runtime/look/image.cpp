@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "texture/image_library.hpp"
@@ -21,7 +22,7 @@ std::array<std::size_t, 3> color_channels(const std::vector<std::string>& names,
   std::array<std::size_t, 3> named{};
   for (std::size_t c = 0; c < named.size(); ++c)
     named[c] = static_cast<std::size_t>(std::ranges::find(names, std::string(1, "RGB"[c])) - names.begin());
-  if (std::ranges::find(named, names.size()) == named.end()) return named;
+  if (!contains(named, names.size())) return named;
   if (names.size() >= 3) return {0, 1, 2};
   throw input_error(path.string() + ": 2 channels found (provide R, G, B or one channel)");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "stages/stage.hpp"
@@ -35,7 +36,7 @@ void require_known(const std::string& word, const std::string& name, const Conve
   if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
   std::vector<std::string> known = graph.models();
   for (const std::string& model : graph.models())
-    if (std::ranges::find(known, renderer_of(model)) == known.end()) known.push_back(renderer_of(model));
+    if (!contains(known, renderer_of(model))) known.push_back(renderer_of(model));
   for (const WorkflowModel& model : workflow_models()) known.push_back(model_of(model.end));
   for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
   const std::string near = joined(nearest_names(name, known, kNamesShown), ", ");
@@ -228,7 +229,7 @@ std::vector<Parameter> ConversionChoice::targets() const {
 
 bool ConversionChoice::has_source(Parameter parameter) const {
   const std::vector<Parameter> all = sources();
-  return std::ranges::find(all, parameter) != all.end();
+  return contains(all, parameter);
 }
 
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -24,10 +25,6 @@ std::vector<std::string> unique_names(std::vector<std::string> names) {
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
-}
-
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
 }
 
 // Refuses a name that is not one of the `known` models.
@@ -127,7 +124,7 @@ std::vector<std::string> ConverterGraph::names_connected(const std::string& mode
   return names;
 }
 
-bool ConverterGraph::has_model(const std::string& name) const { return holds(models_, name); }
+bool ConverterGraph::has_model(const std::string& name) const { return contains(models_, name); }
 
 std::vector<std::string> ConverterGraph::reachable_from(const std::string& model) const {
   return names_connected(model, true);
@@ -167,7 +164,7 @@ std::vector<ConverterPath> ConverterGraph::find_paths(const PathRequest& request
 std::vector<ConverterPath> ConverterGraph::paths_to_renderer(const PathRequest& request) const {
   std::vector<ConverterPath> paths;
   for (const std::string& model : models_of(request.target)) {
-    if (model == request.source || holds(request.via, model)) continue;
+    if (model == request.source || contains(request.via, model)) continue;
     const std::vector<std::size_t> nodes = waypoints({request.source, model, request.via});
     for (const std::vector<std::size_t>& edges : least_paths(*graph_, nodes, 1))
       paths.push_back(path_of(edges));
@@ -185,7 +182,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   std::vector<std::size_t> nodes;
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
-    if (std::ranges::find(nodes, node(model)) != nodes.end())
+    if (contains(nodes, node(model)))
       throw usage_error(model +
                         (model == request.source && model == request.target && request.via.empty()
                              ? ": source and target are the same model (choose another model for one of them)"

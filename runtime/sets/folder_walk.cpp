@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "core/system.hpp"
@@ -24,10 +25,6 @@ constexpr std::array<std::string_view, 11> kExtensions = {"exr", "tif", "tiff", 
 std::string extension_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string_view::npos || dot == 0 ? "" : lower(name.substr(dot + 1));
-}
-
-bool holds(const auto& extensions, const std::string& extension) {
-  return std::ranges::find(extensions, extension) != extensions.end();
 }
 
 class Walker {
@@ -91,8 +88,8 @@ class Walker {
     if (fs::is_directory(status)) {
       if (recursive_) (link ? links_ : folders_).insert(relative.string());
     } else if (const std::string extension = extension_of(name);
-               holds(kExtensions, extension) || holds(also_, extension)) {
-      if (fs::is_regular_file(status) && holds(kExtensions, extension))
+               contains(kExtensions, extension) || contains(also_, extension)) {
+      if (fs::is_regular_file(status) && contains(kExtensions, extension))
         images.push_back(name);
       else if (fs::is_regular_file(status))
         walk_.others.push_back(relative);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/contains.hpp"
 namespace remap {
 
 // A NameParts holds the pieces of a name up to the word of the map. The resolution, the format and ignored
@@ -78,9 +79,7 @@ bool is_resolution(std::string_view piece) {
   return is_side(piece.substr(0, cross)) && is_side(piece.substr(cross + 1));
 }
 
-bool is_format_word(std::string_view piece) {
-  return std::ranges::find(kFormats, lower(piece)) != kFormats.end();
-}
+bool is_format_word(std::string_view piece) { return contains(kFormats, lower(piece)); }
 
 std::string word_key(std::string_view word) {
   std::string key;
@@ -127,9 +126,7 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   for (const Word& word : found->second) {
     const Habit& habit = habits_[word.habit];
     if (!ending.follows_separator && !habit.camel_case) continue;
-    const auto allowed = [&](std::size_t cut) {
-      return std::ranges::find(word.cuts, cut) != word.cuts.end();
-    };
+    const auto allowed = [&](std::size_t cut) { return contains(word.cuts, cut); };
     if (!std::ranges::all_of(ending.cuts, allowed)) continue;
     const std::tuple rank{!habit.built_in, word.text == ending.text, habit.resolution == ending.resolution};
     if (best == nullptr || rank > best_rank) {

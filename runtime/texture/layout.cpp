@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -153,7 +154,7 @@ const NamedLayout* engine_layout(std::string_view name) {
 const NamedLayout* engine_layout_of(std::string_view word) {
   const auto found = std::ranges::find_if(kLayouts, [word](const NamedLayout& layout) {
     const std::vector<std::string> words = parts_between(layout.words, ' ');
-    return !word.empty() && std::ranges::find(words, word) != words.end();
+    return !word.empty() && contains(words, word);
   });
   return found == kLayouts.end() ? nullptr : &*found;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
@@ -23,7 +24,7 @@ namespace {
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
-  if (std::ranges::find(kExtensions, extension) == kExtensions.end())
+  if (!contains(kExtensions, extension))
     throw usage_error("--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
@@ -57,7 +58,7 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
 }
 
 bool is_wanted(const TargetChoice& choice, Parameter parameter) {
-  return std::ranges::find(choice.parameters, parameter) != choice.parameters.end();
+  return contains(choice.parameters, parameter);
 }
 
 // Returns what a channel of a result holds if the result is made from `place`, a channel of an input map.
@@ -254,7 +255,7 @@ bool holds_floats(const TargetChoice& choice) {
 }
 
 PlannedFile own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
-  const bool is_wide = std::ranges::find(choice.wide, parameter) != choice.wide.end();
+  const bool is_wide = contains(choice.wide, parameter);
   if (is_wide && !holds_floats(choice)) {
     TargetChoice floats = choice;
     floats.extension = "exr";
@@ -385,8 +386,7 @@ std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetCh
                                            const TargetChoice& choice) {
   if (const auto* place = std::get_if<ChannelPlace>(&channel)) return *place;
   const auto* made = std::get_if<ConvertedChannel>(&channel);
-  if (made == nullptr || std::ranges::find(choice.unchanged, made->parameter) == choice.unchanged.end())
-    return std::nullopt;
+  if (made == nullptr || !contains(choice.unchanged, made->parameter)) return std::nullopt;
   const SetParameter* own = set.map_of(made->parameter);
   if (own == nullptr || made->index >= own->channels.size() || !own->factors.empty() ||
       choice.color_transfers.contains(made->parameter))

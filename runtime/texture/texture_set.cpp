@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
@@ -18,12 +19,6 @@ std::vector<std::string> channel_names(const ImageLayout& layout) {
   std::vector<std::string> names;
   for (const Channel& channel : layout.channels) names.push_back(plain(channel.name));
   return names;
-}
-
-std::string listed(std::span<const std::string> names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // If an image that cannot be read in bands is at least this large, remarks() mentions it.
@@ -216,8 +211,9 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   for (const std::string& asked : name.channels)
     if (!find_channel(reader, asked))
       throw usage_error(name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
-  throw input_error(name.file.string() + ": has the channels " + listed(known) + ", but needs " + expected +
-                    " (choose a channel, such as " + name.file.string() + ":" + plain(known.front()) + ")");
+  throw input_error(name.file.string() + ": has the channels " + joined(known, ", ") + ", but needs " +
+                    expected + " (choose a channel, such as " + name.file.string() + ":" +
+                    plain(known.front()) + ")");
 }
 
 // Finds the named channels, or the color channels, in a file. Only one part of the file may have them.
@@ -238,7 +234,7 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
-  throw usage_error(name.file.string() + ": several parts of the file (" + listed(part_names) +
+  throw usage_error(name.file.string() + ": several parts of the file (" + joined(part_names, ", ") +
                     ") have such channels (choose a part: FILE:PART.CHANNEL or FILE:PART.R,PART.G,PART.B)");
 }
 
@@ -296,7 +292,7 @@ std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
 std::string listed_options(const TextureSet& set) {
   std::vector<std::string> options;
   for (const auto& [parameter, values] : set.parameters) options.push_back(parameter_option(parameter));
-  return listed(options);
+  return joined(options, ", ");
 }
 
 }  // namespace
@@ -330,9 +326,8 @@ std::vector<float> parse_factors(std::string_view option, std::string_view text)
 
 bool TextureSet::holds(const ChannelPlace& place) const {
   const std::vector<const SetParameter*> mapped = mapped_parameters(*this);
-  return std::ranges::any_of(mapped, [&](const SetParameter* parameter) {
-    return std::ranges::find(parameter->channels, place) != parameter->channels.end();
-  });
+  return std::ranges::any_of(
+      mapped, [&](const SetParameter* parameter) { return contains(parameter->channels, place); });
 }
 
 std::set<std::size_t> TextureSet::maps_of_material() const {

@@ -5,6 +5,7 @@
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/json_spans.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
@@ -66,8 +67,7 @@ void TextEdits::add_splices(SpanValue container, const Changes& changes,
   const auto is_kept = [&](const SpanValue& child) { return !changes.removed.contains(child.index()); };
   const auto first_kept = std::ranges::find_if(children, is_kept);
   const std::string separator = "," + (children.empty() ? "" : std::string(space_before(children.back())));
-  std::string appended;
-  for (const std::string& text : changes.appended) appended += (appended.empty() ? "" : separator) + text;
+  const std::string appended = joined(changes.appended, separator);
   if (first_kept == children.end()) {
     const std::size_t begin = children.empty() ? container.span().begin + 1 : start_of(children.front());
     const std::size_t end = children.empty() ? begin : children.back().span().end;

@@ -15,6 +15,7 @@
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_workflow.hpp"
 #include "assets/maps/map_pixels.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
@@ -152,7 +153,7 @@ void note_lost_members(SpanValue extension, std::vector<std::string>& warnings) 
                                                      "glossinessFactor", "extras"};
   for (const SpanValue& member : extension.children()) {
     const std::string name = member.key();
-    if (std::ranges::find(kRead, name) != kRead.end()) continue;
+    if (contains(kRead, name)) continue;
     std::string inner;
     if (name == "extensions")
       for (const SpanValue& own : member.children())

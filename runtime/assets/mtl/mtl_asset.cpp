@@ -17,6 +17,7 @@
 #include "assets/maps/map_pixels.hpp"
 #include "assets/mtl/mtl_images.hpp"
 #include "assets/mtl/mtl_material.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 
@@ -321,7 +322,7 @@ class MtlEditor {
 
 bool is_mtl_map(const std::string& word) {
   constexpr std::array<std::string_view, 5> kOthers = {"bump", "disp", "decal", "refl", "norm"};
-  return word.starts_with("map_") || std::ranges::find(kOthers, word) != kOthers.end();
+  return word.starts_with("map_") || contains(kOthers, word);
 }
 
 std::string mtl_text(const ByteSource& source, const std::string& context) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -71,9 +72,7 @@ std::optional<std::string> relative_path(const std::string& folder, const std::s
       parts.push_back(part);
   }
   if (parts.empty() || parts.back() == "..") return std::nullopt;
-  std::string path;
-  for (const std::string& part : parts) path += (path.empty() ? "" : "/") + part;
-  return path;
+  return joined(parts, "/");
 }
 
 std::string file_name_of(const std::string& name) {
@@ -86,8 +85,7 @@ std::vector<std::string> MtlImages::candidates(const std::string& file) const {
   std::vector<std::string> paths;
   for (const std::string& name : {file, file_name_of(file)})
     for (const std::string& folder : {folder_, std::string()})
-      if (const auto path = relative_path(folder, name);
-          path && std::ranges::find(paths, *path) == paths.end())
+      if (const auto path = relative_path(folder, name); path && !contains(paths, *path))
         paths.push_back(*path);
   return paths;
 }

@@ -12,6 +12,7 @@
 #include "command_line/help_text.hpp"
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
@@ -55,8 +56,7 @@ Reader<std::vector<std::string>> rule_names() {
   std::vector<std::string> known;
   for (const Rule& rule : rules()) known.emplace_back(rule.name);
   return list_of(Reader<std::string>{[known](const std::string& option, const std::string& word) {
-                                       if (std::ranges::find(known, word) == known.end())
-                                         fail_unknown(option, "rule", word, known);
+                                       if (!contains(known, word)) fail_unknown(option, "rule", word, known);
                                        return word;
                                      },
                                      {}});
@@ -79,9 +79,8 @@ MaterialReport look_at(CheckedMaterial material, const CheckOptions& options) {
   report.problems = material.read_maps();
   report.map_count = material.maps.size();
   report.findings = findings_in(material, options.reader);
-  std::erase_if(report.findings, [&](const MaterialFinding& finding) {
-    return std::ranges::find(options.ignored, finding.rule) != options.ignored.end();
-  });
+  std::erase_if(report.findings,
+                [&](const MaterialFinding& finding) { return contains(options.ignored, finding.rule); });
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -523,11 +524,9 @@ std::optional<NormalGreen> normals_of(const ModelName& model) {
                                                              "threejs/standard",
                                                              "usd-preview-surface",
                                                              "usd-preview-surface-specular"};
-  const auto holds = [](const auto& names, std::string_view name) {
-    return std::ranges::find(names, name) != names.end();
-  };
   if (const NamedLayout* engine = engine_layout_of(model.word())) return engine->normals;
-  if (holds(kUpwards, model.word()) || (holds(kUpwardModels, model.name) && !holds(kOfNoTool, model.word())))
+  if (contains(kUpwards, model.word()) ||
+      (contains(kUpwardModels, model.name) && !contains(kOfNoTool, model.word())))
     return NormalGreen::kUp;
   return std::nullopt;
 }

@@ -61,22 +61,11 @@ fs::path FolderResources::output(const std::string& path) const {
   return job_.output_root / below(folder_of_asset(job_.output), job_.output_root, path);
 }
 
-bool are_same_files(const fs::path& a, const fs::path& b) {
-  const FileSource first(a), second(b);
+bool have_same_bytes(const ByteSource& first, const ByteSource& second) {
   if (first.size() != second.size()) return false;
   for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
     const std::uint64_t count = std::min(kCopiedAtOnce, first.size() - at);
     if (first.read(at, count) != second.read(at, count)) return false;
-  }
-  return true;
-}
-
-bool have_same_bytes(const fs::path& file, std::string_view bytes) {
-  const FileSource source(file);
-  if (source.size() != bytes.size()) return false;
-  for (std::uint64_t at = 0; at < source.size(); at += kCopiedAtOnce) {
-    const std::uint64_t count = std::min(kCopiedAtOnce, source.size() - at);
-    if (source.read(at, count) != bytes.substr(at, count)) return false;
   }
   return true;
 }
@@ -117,7 +106,7 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     if (same_file(source, target)) continue;
     if (fs::is_regular_file(target, ignored)) {
-      if (are_same_files(source, target)) continue;
+      if (have_same_bytes(FileSource(source), FileSource(target))) continue;
       require_free(target);
     }
     plan.copies.push_back({source, target});

@@ -9,6 +9,7 @@
 #include "assets/gltf/gltf_asset.hpp"
 #include "assets/mtl/mtl_asset.hpp"
 #include "assets/obj/obj_gltf.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
@@ -181,7 +182,7 @@ void require_readable(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   const auto found = std::ranges::find_if(kUnread, [&](const UnreadFormat& format) {
     const std::vector<std::string> extensions = parts_between(format.extensions, ' ');
-    return std::ranges::find(extensions, extension) != extensions.end();
+    return contains(extensions, extension);
   });
   if (found == kUnread.end()) return;
   std::string remedy(found->remedy);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
@@ -73,7 +74,7 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
   const std::vector<Parameter> targets = workflow.targets();
   for (const Parameter parameter :
        {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kMetallic}) {
-    const bool is_result = std::ranges::find(targets, parameter) != targets.end();
+    const bool is_result = contains(targets, parameter);
     // Without a workflow, colors are copied and metallic has a place in some layouts.
     const bool has_place = !workflow.is_material() || (parameter == Parameter::kMetallic && !is_result);
     if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)
@@ -311,8 +312,7 @@ std::optional<TranslationEffect> effect_of(const ConversionChoice& workflow,
 
 void apply(const TranslationEffect& effect, TargetChoice& choice) {
   std::erase_if(choice.parameters, [&](Parameter parameter) {
-    return std::ranges::find(effect.written, parameter) == effect.written.end() &&
-           choice.layout.file_with(parameter) == nullptr;
+    return !contains(effect.written, parameter) && choice.layout.file_with(parameter) == nullptr;
   });
   choice.unchanged = effect.unchanged;
   choice.wide = effect.wide;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/version.hpp"
 #include "texture/content_hash.hpp"
 
@@ -40,11 +41,7 @@ std::string difference_text(const ConverterPath& path) {
          (difference->copied ? " (" + percent_text(*difference->copied) + " with copied numbers)" : "");
 }
 
-std::string models_text(const ConverterPath& path) {
-  std::string text;
-  for (const std::string& model : path_models(path)) text += (text.empty() ? "" : " -> ") + model;
-  return text;
-}
+std::string models_text(const ConverterPath& path) { return joined(path_models(path), " -> "); }
 
 std::string note_text(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
   if (path.steps.empty()) return "";
@@ -73,8 +70,8 @@ std::string conventions_text(const WorkflowEnd& end) {
 }
 
 std::string converter_ids(const BuiltConversion& chosen) {
-  std::string ids;
-  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
+  const std::string ids =
+      joined(chosen.path.steps, " ", [](const Converter* step) { return step->info().id; });
   if (chosen.choice.translation) return chosen.info().id;
   if (!chosen.choice.is_material()) return ids;
   return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" + conventions_text(*chosen.choice.source) +

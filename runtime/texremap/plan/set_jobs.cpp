@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
@@ -327,7 +328,7 @@ bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry
   const bool has_color = std::ranges::any_of(
       map.meaning, [](const ChannelMeaning& other) { return other.channels == Channels::kRgb; });
   return map.is_converted && !options_.only_converted && !has_color && entry.channels != Channels::kWhole &&
-         std::ranges::find(kRest, entry.role) != kRest.end();
+         contains(kRest, entry.role);
 }
 
 // Adds the maps that are not converted but have a place in the layout.
@@ -358,7 +359,7 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
 
 bool is_normal(const FoundMap& map) {
   const std::string name = lower(map.path.filename().string());
-  return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
+  return contains(map.meaning, Role::kNormal, &ChannelMeaning::role) ||
          name.find("normal") != std::string::npos;  // normal map of a coat
 }
 
@@ -383,8 +384,7 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
     const std::optional<fs::path> file = file_of(map, tile);
     if (!file || (map.tiles.empty() && !is_first)) continue;
     const fs::path source = root_ / *file;
-    if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() &&
-        work.normals.empty()) {
+    if (contains(map.meaning, Role::kNormal, &ChannelMeaning::role) && work.normals.empty()) {
       work.normals = source;
       work.green = stated_green(source.filename().string())
                        .value_or(normals_of(options_.from).value_or(NormalGreen::kUp));
@@ -417,7 +417,7 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
   if (workflow_.translation && is_of_source) return false;  // an option gives another map
   return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
-    return std::ranges::find(kConverted, entry.role) != kConverted.end();
+    return contains(kConverted, entry.role);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
 #include "core/number_text.hpp"
 #include "texremap/plan/converter_text.hpp"
 
@@ -21,7 +22,7 @@ Json file_json(const JobReport& report, const Holds& holds) {
 
 Json file_json(const JobReport& report, Parameter parameter) {
   return file_json(report, [parameter](const JobReport::Result& result) {
-    return std::ranges::find(result.parameters, parameter) != result.parameters.end();
+    return contains(result.parameters, parameter);
   });
 }
 
@@ -126,7 +127,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
-    if (!report.effect && std::ranges::find(named, parameter) == named.end()) named.push_back(parameter);
+    if (!report.effect && !contains(named, parameter)) named.push_back(parameter);
   const auto of = [&](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);
     return found == all.end() ? Json() : values_json(found->second, plan.verbose);

@@ -23,7 +23,8 @@ class SharedCopies {
     const std::shared_ptr<std::mutex> own = lock_of(copy.to);
     const std::lock_guard lock(*own);
     std::error_code ignored;
-    if (fs::is_regular_file(copy.to, ignored) && are_same_files(copy.from, copy.to)) return;
+    if (fs::is_regular_file(copy.to, ignored) && have_same_bytes(FileSource(copy.from), FileSource(copy.to)))
+      return;
     copy_whole_file(copy.from, copy.to);
   }
 
@@ -84,7 +85,8 @@ class AssetWorker {
       const fs::path image = files.output(file.path);
       report.results.push_back({image, {}, false});
       std::error_code ignored;
-      if (!fs::is_regular_file(image, ignored) || !have_same_bytes(image, file.bytes))
+      if (!fs::is_regular_file(image, ignored) ||
+          !have_same_bytes(FileSource(image), MemorySource(file.bytes)))
         folder_.require_free(image);
       folder_.take(image, job.owner);
     }

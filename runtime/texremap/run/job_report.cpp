@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -22,7 +23,7 @@ JobReport JobReport::of(const Job& job) {
 JobReport& JobReport::operator+=(const JobReport& other) {
   const auto append = [](auto& all, const auto& more) {
     for (const auto& entry : more)
-      if (std::ranges::find(all, entry) == all.end()) all.push_back(entry);
+      if (!contains(all, entry)) all.push_back(entry);
   };
   append(tiles, other.tiles);
   append(inputs, other.inputs);
@@ -58,15 +59,11 @@ namespace {
 std::string name_of_file(const std::filesystem::path& file) { return display_path(file.filename()); }
 
 std::string input_of(const TextureSet& set, const SetParameter& parameter) {
-  std::string text;
-  if (!parameter.is_map()) {
-    for (const float value : parameter.constants)
-      text += (text.empty() ? "" : ",") + number_text(decimal_value(value));
-    return text;
-  }
+  if (!parameter.is_map())
+    return joined(parameter.constants, ",", [](float value) { return number_text(decimal_value(value)); });
   const ImageReader& map = set.maps[parameter.channels.front().map];
   const auto& all = map.layout().channels;
-  text = name_of_file(map.path());
+  std::string text = name_of_file(map.path());
   if (parameter.channels.size() == std::min<std::size_t>(3, all.size()) &&
       parameter.channels.front().channel == 0 && (parameter.channels.size() > 1 || all.size() == 1))
     return text;  // alpha is not part of the map's values
@@ -104,12 +101,10 @@ std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& 
     const RoughnessEncoding own = set.convention.value_or(own_width);
     return own == width ? happens : happens + " to " + std::string(encoding_name(width));
   };
-  const auto is_planned = [&](Parameter parameter) {
-    return std::ranges::find(choice.parameters, parameter) != choice.parameters.end();
-  };
+  const auto is_planned = [&](Parameter parameter) { return contains(choice.parameters, parameter); };
   for (const auto& [parameter, values] : set.parameters) {
     if (is_input(parameter) && !values.is_map() && !is_planned(parameter)) continue;  // usually a default
-    const bool is_kept = std::ranges::find(choice.unchanged, parameter) != choice.unchanged.end();
+    const bool is_kept = contains(choice.unchanged, parameter);
     const bool is_target = is_planned(parameter);
     const bool is_width = parameter == Parameter::kRoughness;
     PlannedRole role{plain_name(parameter), input_of(set, values), "",

@@ -4,6 +4,7 @@
 
 #include "check/rules.hpp"
 #include "command_line/progress.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
@@ -25,7 +26,7 @@ using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
-    if (std::ranges::find(files, map.file()) == files.end()) files.push_back(map.file());
+    if (!contains(files, map.file())) files.push_back(map.file());
   return files;
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -105,10 +106,10 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
                                          kBits = {1, 4, 8, 16, 24, 32};
   const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
                     (compression == 3 && (bits == 16 || bits == 32));
-  if (std::ranges::find(kHeaders, header) == kHeaders.end())
+  if (!contains(kHeaders, header))
     throw input_error(context + ": is damaged, or of an unknown kind: a header of " + std::to_string(header) +
                       " bytes");
-  if (!fits || std::ranges::find(kBits, bits) == kBits.end())
+  if (!fits || !contains(kBits, bits))
     throw input_error(context + ": is damaged, or of an unknown kind: compression " +
                       std::to_string(compression) + " of " + std::to_string(bits) + " bits");
   if (pixels > image.size) refuse_damaged(context, "its texels would begin behind its end");

@@ -12,6 +12,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
@@ -161,7 +162,7 @@ class StreamProxy : public OIIO::Filesystem::IOFile {
 // Returns true if OpenImageIO opens a file of this format again, by its name, to go back to an earlier row.
 bool starts_again(const ImageLayout& layout) {
   constexpr std::array<std::string_view, 4> kFormats = {"hdr", "jpeg", "png", "tiff"};
-  return layout.tile_height == 0 && std::ranges::find(kFormats, layout.format) != kFormats.end();
+  return layout.tile_height == 0 && contains(kFormats, layout.format);
 }
 
 class OpenedImage : public StoredImage {
