@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "assets/document/mtl_document.hpp"
-#include "assets/mtl/mtl_asset.hpp"
+#include "assets/mtl/mtl_libraries.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "check/material.hpp"
 #include "core/errors.hpp"

@@ -8,7 +8,6 @@
 #include "assets/gltf/material_textures.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
-#include "assets/mtl/mtl_asset.hpp"
 #include "assets/mtl/mtl_libraries.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "assets/obj/obj_mesh.hpp"

@@ -7,7 +7,6 @@
 #include "core/base64.hpp"
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "assets/document/asset.hpp"
 #include "remap/pixels.hpp"
-#include "texture/image_layout.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {

@@ -174,7 +174,7 @@ void GltfNewImages::write_image(const NewImage& image, std::size_t number, TextE
 void GltfNewImages::write_texture(NewTexture& texture, TextEdits& edits) {
   const std::optional<std::size_t> sampler = textures_[texture.model]["sampler"].whole(),
                                    spare = take_spare(spares_.textures, texture.model);
-  const std::string source = std::to_string(image_place(texture.image));
+  const std::string source = std::to_string(image_places_[texture.image]);
   texture.place = spare ? *spare : texture_count_;
   if (!spare) {
     ++texture_count_;

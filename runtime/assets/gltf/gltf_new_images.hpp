@@ -82,8 +82,6 @@ class GltfNewImages {
   void empty_spares(TextEdits& edits);
   void set_location(SpanValue image, const Location& location, TextEdits& edits);
   Location cheapest_location() const;
-  std::size_t image_place(std::size_t number) const { return image_places_[number]; }
-
   SpanValue root_;
   const GltfContainer& container_;
   const AssetResources& resources_;

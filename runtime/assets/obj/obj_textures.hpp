@@ -12,7 +12,7 @@
 
 #include "assets/document/asset.hpp"
 #include "assets/document/asset_uri.hpp"
-#include "assets/mtl/mtl_images.hpp"
+#include "assets/mtl/mtl_libraries.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "core/json.hpp"
 

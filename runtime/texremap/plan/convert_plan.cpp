@@ -148,9 +148,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
           "--from is required with --part, because texremap cannot detect the model from the maps of one "
           "part");
     if (!found) found = discovered_sets(options);
-    const InferredSource source = inferred_source(options, found);
-    options.from = model_name().read("--from", source.model);
-    inferred = source.note;
+    inferred = infer_source(options, found);
   }
   ConversionChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);

@@ -273,7 +273,7 @@ bool has_subfolder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets) {
+std::string infer_source(ConvertOptions& options, const std::optional<Discovery>& sets) {
   const auto has = [&](Parameter parameter) { return options.map_of(parameter) != nullptr; };
   std::string model =
       model_of_maps(has(Parameter::kMetallic), has(Parameter::kBaseColor), has(Parameter::kSpecular),
@@ -286,7 +286,8 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     if (model.empty())
       throw usage_error(
           "--from is required, because the maps do not identify the source (texremap list shows the models)");
-    return {model, "texremap uses --from " + model + ", the model that has these maps"};
+    options.from = model_name().read("--from", model);
+    return "texremap uses --from " + model + ", the model that has these maps";
   }
   std::string first;
   std::size_t count = 0;
@@ -309,8 +310,9 @@ InferredSource inferred_source(const ConvertOptions& options, const std::optiona
     throw usage_error(
         "--from is required, because the file names do not identify the source (texremap list shows the "
         "models)");
-  return {model, "texremap uses --from " + model + ", detected from the maps of " +
-                     (count == 1 ? first : std::to_string(count) + " sets")};
+  options.from = model_name().read("--from", model);
+  return "texremap uses --from " + model + ", detected from the maps of " +
+         (count == 1 ? first : std::to_string(count) + " sets");
 }
 
 }  // namespace remap

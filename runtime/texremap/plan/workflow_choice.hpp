@@ -45,13 +45,9 @@ std::vector<std::string> choose_maps(FoundSet& set, const std::vector<Parameter>
                                      const std::vector<std::string>& prefer,
                                      std::optional<RoughnessEncoding> own);
 
-// An InferredSource is the source model that texremap infers, if --from is missing, from the names of maps or
-// the map options.
-struct InferredSource {
-  std::string model;  // `metallic`, `gltf-specgloss`, `specular`
-  std::string note;   // why texremap infers this model
-};
-// Throws kUsage if the source is unclear, or if sets of the folder differ.
-InferredSource inferred_source(const ConvertOptions& options, const std::optional<Discovery>& sets);
+// If --from is missing, sets it to the source model that the names of maps or the map options show:
+// `metallic`, `gltf-specgloss`, `specular`. Returns why, as a note. Throws kUsage if the source is unclear,
+// or if sets of the folder differ.
+std::string infer_source(ConvertOptions& options, const std::optional<Discovery>& sets);
 
 }  // namespace remap

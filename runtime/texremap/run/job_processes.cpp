@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "command_line/progress.hpp"
-#include "core/errors.hpp"
 #include "core/packed_values.hpp"
 #include "core/parallel.hpp"
 #include "core/system.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {

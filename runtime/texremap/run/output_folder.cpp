@@ -4,7 +4,6 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
