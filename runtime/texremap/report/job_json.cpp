@@ -1,10 +1,9 @@
-#include "texremap/report/job_json.hpp"
-
 #include <algorithm>
 
 #include "core/contains.hpp"
 #include "core/number_text.hpp"
 #include "texremap/plan/converter_text.hpp"
+#include "texremap/report/reporter.hpp"
 
 namespace remap {
 namespace {

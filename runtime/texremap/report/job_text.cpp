@@ -1,5 +1,3 @@
-#include "texremap/report/job_text.hpp"
-
 #include <algorithm>
 #include <iostream>
 
@@ -9,6 +7,7 @@
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/converter_text.hpp"
+#include "texremap/report/reporter.hpp"
 #include "texremap/run/job_report.hpp"
 
 namespace remap {

@@ -13,7 +13,6 @@
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/report/job_json.hpp"
 #include "texremap/report/part_report.hpp"
 
 namespace remap {
