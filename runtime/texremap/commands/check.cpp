@@ -11,7 +11,6 @@
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
 #include "command_line/progress.hpp"
-#include "command_line/run_app.hpp"
 #include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
@@ -158,7 +157,7 @@ void check(const CheckOptions& options) {
   const std::set<std::string> problems(found.problems.begin(), found.problems.end());
   for (const std::string& problem : problems) {
     json["problems"].push_back(problem);
-    print_message(kProgram, "not read: " + problem);
+    say("not read: " + problem);
   }
   json["maps"] = maps;
   if (options.json) std::cout << json.dump(2) << '\n';
@@ -167,11 +166,11 @@ void check(const CheckOptions& options) {
     throw input_error(all + ": " + counted(count, "finding") +
                       (problems.empty() ? "" : ", " + counted(problems.size(), "file") + " not read"));
   if (options.quiet) return;
-  print_message(kProgram, all + ": " +
-                              (count == 0 ? "nothing looks wrong"
-                                          : counted(count, "finding") + ", none of which is " +
-                                                std::string(name_of(kConfidences, options.fails_on)) +
-                                                " (--fail-on possible fails on these, too)"));
+  say(all + ": " +
+      (count == 0 ? "nothing looks wrong"
+                  : counted(count, "finding") + ", none of which is " +
+                        std::string(name_of(kConfidences, options.fails_on)) +
+                        " (--fail-on possible fails on these, too)"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "command_line/run_app.hpp"
 #include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
@@ -590,5 +591,7 @@ std::string result_options_text(const ConvertOptions& options) {
     add("--from " + std::string(options.from.word()));
   return text;
 }
+
+void say(const std::string& text) { print_message("texremap", text); }
 
 }  // namespace remap

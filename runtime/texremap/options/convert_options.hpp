@@ -165,6 +165,7 @@ void note_given(const Command& command, ConvertOptions& options);
 // Returns all options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
 
-inline constexpr const char* kProgram = "texremap";  // begins every message
+// Prints a line to standard error: `texremap: text`.
+void say(const std::string& text);
 
 }  // namespace remap

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "command_line/progress.hpp"
-#include "command_line/run_app.hpp"
 #include "convert/transfer.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
@@ -256,7 +255,7 @@ class ReportPage {
     json_["notes"] = notes;
     for (const auto& [key, url] : images_) json_["images"][key] = url;
     return filled(kReportHtml, {{"TITLE", escaped(title())},
-                                {"VERSION", std::string(kProgram) + " " + kVersion},
+                                {"VERSION", std::string("texremap ") + kVersion},
                                 {"STYLE", std::string(kViewerStyle)},
                                 {"SCRIPT", std::string(kViewerScript)},
                                 {"DATA", script_text(json_)}});
@@ -356,7 +355,7 @@ void write_report_page(const ConvertPlan& plan, const std::vector<JobReport>& re
     write_file(plan.report, ReportPage(plan, reports).html());
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    print_message(kProgram, "warning: " + std::string(error.what()));
+    say("warning: " + std::string(error.what()));
   }
 }
 

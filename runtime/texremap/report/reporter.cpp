@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <iostream>
 
-#include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -17,8 +16,6 @@
 
 namespace remap {
 namespace {
-
-void say(const std::string& text) { print_message(kProgram, text); }
 
 void print_messages(const ConvertPlan& plan) {
   if (plan.quiet) return;
