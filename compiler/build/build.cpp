@@ -14,7 +14,7 @@
 #include "core/files.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "emit/emit.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/network/fit_network.hpp"

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "build/report.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "lower/chain.hpp"
 
 namespace remap {

@@ -4,7 +4,7 @@
 
 #include "build/fit_folder.hpp"
 #include "build/report.hpp"
-#include "converter/converter_fields.hpp"
+#include "converter/converter_data.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "remap/error.hpp"

@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "lower/fit_fields.hpp"
 #include "remap/version.hpp"
 

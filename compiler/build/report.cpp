@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "table/regression.hpp"
 
 namespace remap {

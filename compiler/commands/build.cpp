@@ -4,14 +4,12 @@
 #include <iostream>
 
 #include "command_line/command.hpp"
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "remap/error.hpp"
 #include "worker/renderer_set.hpp"
 

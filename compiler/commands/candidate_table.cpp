@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "table/regression.hpp"
 
 namespace remap {

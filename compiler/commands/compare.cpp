@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/input_file.hpp"
 #include "core/json.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "fit/baselines.hpp"
 #include "report/fit_plot.hpp"
 #include "table/regression.hpp"

@@ -13,8 +13,8 @@
 #include "commands/option_readers.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {

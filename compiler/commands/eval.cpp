@@ -10,7 +10,6 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "lower/interpreter.hpp"
 #include "table/regression.hpp"
 

@@ -15,7 +15,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/network/fit_network.hpp"
 #include "fit/parametric/parametric.hpp"

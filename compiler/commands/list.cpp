@@ -8,7 +8,6 @@
 #include "commands/option_readers.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "renderer/renderer.hpp"
 #include "table/regression.hpp"
 

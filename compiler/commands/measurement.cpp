@@ -4,12 +4,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/option_readers.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "table/csv.hpp"
 
 namespace remap {

@@ -10,7 +10,7 @@
 
 #include "command_line/progress.hpp"
 #include "core/json.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "measure/sweep_options.hpp"
 #include "table/table.hpp"
 #include "worker/renderer_set.hpp"

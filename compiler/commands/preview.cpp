@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "build/fit_folder.hpp"
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
@@ -17,7 +17,6 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "look/image.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "worker/renderer_set.hpp"

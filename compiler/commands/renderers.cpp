@@ -2,7 +2,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "core/json.hpp"
 #include "remap/error.hpp"

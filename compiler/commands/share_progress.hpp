@@ -3,14 +3,13 @@
 
 #include <string>
 
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
 
 // A ShareProgress shows a progress line `<command> <subject>` while it exists. Meanwhile, signals stop the
-// work (interruption.hpp). Where a FitProgress is expected, pass it by std::ref.
+// work (progress.hpp). Where a FitProgress is expected, pass it by std::ref.
 class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& subject)

@@ -10,7 +10,6 @@
 #include "commands/commands.hpp"
 #include "commands/option_readers.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "lower/chain.hpp"
 #include "lower/fit_file.hpp"
 #include "lower/interpreter.hpp"

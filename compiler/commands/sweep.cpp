@@ -8,7 +8,6 @@
 #include "commands/measurement.hpp"
 #include "commands/option_readers.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "measure/sweep_options.hpp"
 
 namespace remap {

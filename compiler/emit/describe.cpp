@@ -6,7 +6,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "emit/header_data.hpp"
 #include "reference/workflow_conversion.hpp"
 #include "remap/converter.hpp"

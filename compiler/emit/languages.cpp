@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_data.hpp"
 #include "formula/expression.hpp"

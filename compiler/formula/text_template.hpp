@@ -1,4 +1,4 @@
-// This file writes the pieces of generated code: templates, literals, lists and tables.
+// This file writes the pieces of generated code: templates, literals and tables.
 #pragma once
 
 #include <initializer_list>
@@ -22,14 +22,6 @@ std::string_view code_file(std::string_view name);
 
 // Returns files without placeholders one after another, each after an empty line.
 std::string code_files(std::initializer_list<std::string_view> names);
-
-// Returns the texts of the elements of `list`, separated by `between`.
-template <typename List, typename Text>
-std::string joined(const List& list, std::string_view between, const Text& text_of) {
-  std::string text;
-  for (const auto& element : list) text.append(text.empty() ? "" : between).append(text_of(element));
-  return text;
-}
 
 // Returns ASCII letters as capitals, for include guards.
 std::string upper_case(std::string text);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 
 namespace remap {
 

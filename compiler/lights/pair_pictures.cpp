@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "lights/display_curve.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/environment.hpp"
 #include "look/lit_sphere.hpp"
 #include "renderer/renderer.hpp"

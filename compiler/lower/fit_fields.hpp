@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "converter/converter_fields.hpp"
+#include "converter/converter_data.hpp"
 #include "core/json_field.hpp"
 #include "lower/fit.hpp"
 #include "lower/fit_file.hpp"

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "formula/expression.hpp"
 #include "formula/text_template.hpp"
 #include "materials/description.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 

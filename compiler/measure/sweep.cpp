@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 #include "measure/block_match.hpp"
 #include "measure/match.hpp"
 #include "measure/picture_taker.hpp"

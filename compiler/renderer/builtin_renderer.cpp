@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "remap/version.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/renderer.hpp"

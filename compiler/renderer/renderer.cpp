@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/plain_text.hpp"
+#include "core/system.hpp"
 
 namespace remap {
 namespace {

@@ -9,9 +9,8 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
-#include "look/brdf_models.hpp"
-#include "look/image_similarity.hpp"
+#include "look/brdf.hpp"
+#include "look/image.hpp"
 #include "look/lit_sphere.hpp"
 #include "lower/interpreter.hpp"
 #include "measure/picture_taker.hpp"

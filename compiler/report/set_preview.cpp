@@ -6,7 +6,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "look/scene.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/preview.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/warp_report.hpp"
 

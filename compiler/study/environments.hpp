@@ -10,7 +10,6 @@
 
 #include "look/environment.hpp"
 #include "look/lit_sphere.hpp"
-#include "look/radiance_pyramid.hpp"
 #include "lower/fit.hpp"
 #include "measure/sweep_options.hpp"
 

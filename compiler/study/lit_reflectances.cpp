@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lights/display_curve.hpp"
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 #include "renderer/renderer.hpp"
 #include "study/golden_section.hpp"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "look/environment.hpp"
 #include "look/lit_sphere.hpp"

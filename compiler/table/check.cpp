@@ -7,7 +7,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "table/table.hpp"
 
 namespace remap {

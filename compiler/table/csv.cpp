@@ -11,7 +11,6 @@
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 
 namespace remap {
 namespace {

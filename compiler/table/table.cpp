@@ -9,9 +9,8 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/input_file.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
 #include "warp/texture_material.hpp"
 
 namespace remap {

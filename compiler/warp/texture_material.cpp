@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/number_text.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/image.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/version.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "warp/decompositions.hpp"
 #include "warp/warp_table.hpp"
 

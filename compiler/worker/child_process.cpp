@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/files.hpp"
 #include "core/input_file.hpp"
-#include "core/owner_tag.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"
 

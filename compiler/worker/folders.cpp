@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/owner_tag.hpp"
 
 namespace remap {
 namespace {

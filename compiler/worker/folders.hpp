@@ -21,7 +21,7 @@ std::filesystem::path own_worker_list();
 std::filesystem::path shipped_worker_list();
 
 // A PrivateFolder is a folder of this process that is deleted with the object. Its name contains a mark of
-// this machine and process (core/owner_tag.hpp), so many processes may use the same parent folder. The
+// this machine and process (core/files.hpp), so many processes may use the same parent folder. The
 // constructor also deletes folders that ended processes of this machine left.
 class PrivateFolder {
  public:

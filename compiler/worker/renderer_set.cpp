@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "command_line/command.hpp"
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "worker/folders.hpp"
 
 namespace remap {

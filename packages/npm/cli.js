@@ -7,7 +7,7 @@ import { isatty } from 'node:tty';
 
 import * as images from './images.js';
 
-// The program needs these for the marks of unfinished files (runtime/core/owner_tag.hpp), and for reports.
+// The program needs these for the marks of unfinished files (runtime/core/files.hpp), and for reports.
 const processes = {
   own: process.pid,
   machine: hostname(),

@@ -11,14 +11,14 @@
 #include <utility>
 #include <variant>
 
-#include "converter/converter_fields.hpp"
+#include "converter/converter_data.hpp"
 #include "core/errors.hpp"
 #include "core/json_field.hpp"
 #include "paths/converter_file.hpp"
 #include "remap/conversion.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/version.hpp"
-#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {

@@ -14,7 +14,6 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/gltf_extensions.hpp"
-#include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_images.hpp"
 #include "assets/gltf/gltf_inputs.hpp"

@@ -5,10 +5,9 @@
 #include <set>
 
 #include "assets/maps/map_pixels.hpp"
-#include "check/color_issue.hpp"
 #include "check/rules.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
+#include "core/plain_text.hpp"
 #include "texture/normal_green.hpp"
 
 namespace remap::look {
@@ -116,9 +115,7 @@ std::vector<float> values_of(const std::vector<const Plane*>& planes) {
 }
 
 std::string list_text(const std::vector<float>& values) {
-  std::string text;
-  for (const float value : values) text += (text.empty() ? "" : ",") + number_text(rounded(value, 3));
-  return text;
+  return joined(values, ",", [](double value) { return number_text(rounded(value, 3)); });
 }
 
 // Returns true for the tiles of one map, which share role and channels.
@@ -204,8 +201,8 @@ void linear_color(const CheckedMaterial& material, const GltfConsumer*, const Ru
          "glTF requires) decode it as sRGB",
          image_fix(
              material, map,
-             "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag "
-             "it as sRGB",
+             "export it again as sRGB if its values are linear; if they are sRGB, as in most files, tag it "
+             "as sRGB",
              "--attrib oiio:ColorSpace sRGB --eraseattrib oiio:Gamma --eraseattrib remap:color_space")});
   });
 }
@@ -360,11 +357,11 @@ void metallic_greys(const CheckedMaterial& material, const GltfConsumer*, const 
     const double share = share_of_grey_areas(*plane, texels.columns, texels.rows);
     constexpr double kShare = 0.05;
     if (share < kShare) return;
-    findings.push_back({rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
-                        "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
-                            " of the map; materials are metal or not, and greys belong to edges",
-                        "if this map was made from a specular map, convert the original specular maps "
-                        "again"});
+    findings.push_back(
+        {rule.name, Confidence::kPossible, material.maps[use.map].shown, channel_text(use),
+         "metallic is between 0.15 and 0.85 over areas of " + percent(share) +
+             " of the map; materials are metal or not, and greys belong to edges",
+         "if this map was made from a specular map, convert the original specular maps again"});
   });
 }
 
@@ -403,12 +400,10 @@ void normal_space(const CheckedMaterial& material, const GltfConsumer*, const Ru
     const NormalShares shares = normals_of(rgb);
     constexpr double kUnit = 0.8, kInwards = 0.1;
     if (shares.unit < kUnit || shares.inwards < kInwards) return;
-    findings.push_back(
-        {rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
-         percent(shares.inwards) +
-             " of the normals point into the surface, so the map is in world space or object space, "
-             "not in tangent space",
-         "bake the map again in tangent space, because texremap cannot convert it"});
+    findings.push_back({rule.name, Confidence::kLikely, material.maps[use.map].shown, "",
+                        percent(shares.inwards) + " of the normals point into the surface, so the map is in "
+                                                  "world space or object space, not in tangent space",
+                        "bake the map again in tangent space, because texremap cannot convert it"});
   });
 }
 

@@ -12,7 +12,7 @@
 
 #include "core/files.hpp"
 #include "sets/naming.hpp"
-#include "texture/image_layout.hpp"
+#include "texture/image_library.hpp"
 
 namespace remap {
 

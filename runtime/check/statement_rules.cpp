@@ -9,6 +9,7 @@
 
 #include "assets/document/gltf_extensions.hpp"
 #include "check/rules.hpp"
+#include "core/contains.hpp"
 #include "core/number_text.hpp"
 
 namespace remap::look {
@@ -22,7 +23,7 @@ bool is_of_dielectrics(std::string_view extension) {
       kSpecularExtension,           kIorExtension,
       "KHR_materials_transmission", "KHR_materials_volume",
       "KHR_materials_dispersion",   "KHR_materials_diffuse_transmission"};
-  return std::ranges::find(kNames, extension) != kNames.end();
+  return contains(kNames, extension);
 }
 
 // Returns true if `texremap convert --extensions fold` can fold the extension. The index of refraction of a

@@ -6,8 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "remap/error.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
@@ -21,7 +20,7 @@ std::string name_of(const CLI::Option& option) {
 
 void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                   const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
+  throw usage_error(option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
 }
 
 Option* Option::required() {
@@ -183,8 +182,7 @@ void Command::option_group(const std::string& name) { app_->option_defaults()->g
 
 Option* Command::option(const std::string& name) {
   const CLI::Option* wanted = app_->get_option(name);
-  return std::find_if(options_.begin(), options_.end(),
-                      [wanted](const auto& option) { return option->option_ == wanted; })
+  return std::ranges::find_if(options_, [wanted](const auto& option) { return option->option_ == wanted; })
       ->get();
 }
 

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/contains.hpp"
 namespace remap {
 namespace {
 
@@ -139,10 +140,9 @@ std::vector<std::string> groups(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     if (const std::string& group = option->get_group();
-        option->nonpositional() && !group.empty() &&
-        std::find(names.begin(), names.end(), group) == names.end())
+        option->nonpositional() && !group.empty() && !contains(names, group))
       names.push_back(group);
-  std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+  std::ranges::stable_sort(names, [](const std::string& a, const std::string& b) {
     const auto rank = [](const std::string& name) { return is_rare(name) ? 2 : name == kHelpGroup ? 1 : 0; };
     return rank(a) < rank(b);
   });
@@ -196,8 +196,7 @@ class HelpFormatter : public CLI::FormatterBase {
     std::vector<std::string> names;
     const auto all = app.get_subcommands(is_shown);
     for (const CLI::App* command : all)
-      if (std::find(names.begin(), names.end(), command->get_group()) == names.end())
-        names.push_back(command->get_group());
+      if (!contains(names, command->get_group())) names.push_back(command->get_group());
     std::string text;
     for (const std::string& name : names) {
       text += "\n" + (name == "Subcommands" ? std::string("Commands") : name) + ":\n";
@@ -217,8 +216,7 @@ class HelpFormatter : public CLI::FormatterBase {
 
 bool has_rare_options(const CLI::App& app) {
   const auto options = app.get_options();
-  return std::any_of(options.begin(), options.end(),
-                     [](const CLI::Option* option) { return is_rare(option->get_group()); });
+  return std::ranges::any_of(options, [](const CLI::Option* option) { return is_rare(option->get_group()); });
 }
 
 void lay_out(CLI::App& app, const std::shared_ptr<HelpFormatter>& formatter) {

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/system.hpp"
+
 namespace remap {
 namespace {
 
@@ -69,5 +71,24 @@ void Progress::show(Clock::time_point now) {
   last_shown_ = now;
   line_is_up_ = true;
 }
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only write lock-free atomics");
+
+extern "C" void note_interruption(int) { interrupted.store(true, std::memory_order_relaxed); }
+
+}  // namespace
+
+void watch_interruptions() {
+  // Only the first call installs the handler. A second call would ignore the second signal, which must end
+  // the process.
+  static std::atomic_flag is_watching;
+  if (is_watching.test_and_set()) return;
+  watch_signals(note_interruption);
+}
+
+const std::atomic<bool>& interruption() noexcept { return interrupted; }
 
 }  // namespace remap

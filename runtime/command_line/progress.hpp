@@ -1,6 +1,8 @@
-// This file shows the progress of a run as a line on the terminal.
+// This file shows the progress of a run as a line on the terminal, and turns requests to stop (SIGINT,
+// SIGTERM, SIGHUP, SIGPIPE) into a flag that long work polls.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <mutex>
@@ -46,5 +48,13 @@ class Progress {
   bool line_is_up_ = false;
   Clock::time_point last_shown_;
 };
+
+// After this call, the first of these signals sets the flag and does not end the process. So the run can
+// remove its unfinished files. A second SIGINT, SIGTERM or SIGHUP ends the process. If the program was
+// started so that it ignores a signal (nohup), it still ignores it. Further calls do nothing.
+void watch_interruptions();
+
+// Returns true after such a signal.
+const std::atomic<bool>& interruption() noexcept;
 
 }  // namespace remap

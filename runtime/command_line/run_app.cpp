@@ -15,7 +15,6 @@
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
 #include "core/system.hpp"
 #include "remap/error.hpp"
@@ -68,7 +67,7 @@ std::string extra_text(const CLI::App& command, const std::vector<std::string>& 
   const std::vector<std::string> commands = command_names(command);
   if (!commands.empty() && !is_option(extras.front()))
     return "unknown command '" + extras.front() + "'" + did_you_mean(extras.front(), commands, command);
-  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  const auto option = std::ranges::find_if(extras, is_option);
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
     return "unknown option " + name + did_you_mean(name, option_names(command), command);
@@ -151,7 +150,7 @@ void run_reversed(CLI::App& app, std::vector<std::string> words) {
   } catch (const CLI::Success& answer) {
     app.exit(answer);
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, usage_error_text(app, error));
+    throw usage_error(usage_error_text(app, error));
   }
 }
 
@@ -166,9 +165,8 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   // could have changed errno.
   if (!std::cout && errno == EPIPE) return 1;
   if (!std::cout)
-    throw Error(ErrorKind::kOutput,
-                "standard output: cannot be written" +
-                    (errno == 0 ? std::string() : ": " + std::string(std::strerror(errno))));
+    throw output_error("standard output: cannot be written" +
+                       (errno == 0 ? std::string() : ": " + std::string(std::strerror(errno))));
   return 0;
 }
 
@@ -201,7 +199,7 @@ void run_words(Command& command, std::vector<std::string> words) {
 
 void print_message(const std::string& program, const std::string& message) {
   std::string line = program + ": " + message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::ranges::replace(line, '\n', ' ');
   std::cerr << plain(line, kLongestLine) << std::endl;
 }
 

@@ -9,10 +9,9 @@
 #include <memory>
 #include <span>
 
-#include "convert/interleaved.hpp"
 #include "convert/transfer.hpp"
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -200,7 +199,7 @@ Conversion::Conversion(const Converter& converter, const MapConversion& maps)
 }
 
 void Conversion::require_fitting() const {
-  const auto fail = [](const std::string& what) { throw Error(ErrorKind::kUsage, "convert_maps: " + what); };
+  const auto fail = [](const std::string& what) { throw usage_error("convert_maps: " + what); };
   for (const Parameter parameter : sources_) {
     const auto found = maps_.sources.find(parameter);
     const std::size_t count = found == maps_.sources.end() ? 0 : channel_count(found->second);
@@ -350,12 +349,12 @@ void Conversion::require_grey(Parameter parameter, const Segment& segment, Scrat
       return channel < source.channel_names.size() ? source.channel_names[channel]
                                                    : "channel " + std::to_string(channel);
     };
-    throw Error(ErrorKind::kInput,
-                source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
-                    std::to_string(maps_.first_row + segment.y) + ") is not grey: " + name(0) + " is " +
-                    number_text(rounded(static_cast<double>(first[i]), 4)) + " and " + name(c) + " is " +
-                    number_text(rounded(static_cast<double>(scratch.other[i]), 4)) + " (choose one channel" +
-                    (source.one_channel.empty() ? "" : ": " + source.one_channel) + ")");
+    throw input_error(source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
+                      std::to_string(maps_.first_row + segment.y) + ") is not grey: " + name(0) + " is " +
+                      number_text(rounded(static_cast<double>(first[i]), 4)) + " and " + name(c) + " is " +
+                      number_text(rounded(static_cast<double>(scratch.other[i]), 4)) +
+                      " (choose one channel" + (source.one_channel.empty() ? "" : ": " + source.one_channel) +
+                      ")");
   }
 }
 
@@ -399,12 +398,11 @@ void Conversion::throw_invalid_texel(const Segment& segment, std::size_t texel, 
       if (is_ordinary(value, kLargest)) continue;
       const SourceParameter& source = maps_.sources.at(parameter);
       const std::string of = c < source.channel_names.size() ? source.channel_names[c] + " of " : "";
-      throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
-                                         ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
-                                         number_text(static_cast<double>(value)) +
-                                         " (--nan clamp replaces such values)");
+      throw input_error(source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) + ", " +
+                        std::to_string(maps_.first_row + segment.y) + ") is " +
+                        number_text(static_cast<double>(value)) + " (--nan clamp replaces such values)");
     }
-  throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
+  throw usage_error("convert_maps: no invalid texel found");
 }
 
 // Counts invalid texels. With BadTexels::kFail, throws for the first invalid texel.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "remap/error.hpp"
+#include "core/contains.hpp"
+#include "core/errors.hpp"
 #include "stages/stage.hpp"
 
 namespace remap {
@@ -10,19 +11,15 @@ namespace {
 
 void require_channels(std::size_t count) {
   if (count != 1 && count != 3)
-    throw Error(ErrorKind::kUsage,
-                "converter: got " + std::to_string(count) + " specular channels (1 or 3 are supported)");
+    throw usage_error("converter: got " + std::to_string(count) +
+                      " specular channels (1 or 3 are supported)");
 }
 
 }  // namespace
 
-bool Converter::has_source(Parameter parameter) const noexcept {
-  return std::find(sources_.begin(), sources_.end(), parameter) != sources_.end();
-}
+bool Converter::has_source(Parameter parameter) const noexcept { return contains(sources_, parameter); }
 
-bool Converter::has_target(Parameter parameter) const noexcept {
-  return std::find(targets_.begin(), targets_.end(), parameter) != targets_.end();
-}
+bool Converter::has_target(Parameter parameter) const noexcept { return contains(targets_, parameter); }
 
 std::size_t Converter::target_channels(Parameter parameter, std::size_t specular_channels) const noexcept {
   if (!is_color(parameter)) return 1;
@@ -51,8 +48,8 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   in[Parameter::kRoughness] = {{width}, 1};
   out[Parameter::kRoughness] = {{width_out}, 1};
   in[Parameter::kSpecular].count = out[Parameter::kSpecular].count = specular.size();
-  std::copy(specular.begin(), specular.end(), in[Parameter::kSpecular].row.begin());
-  std::copy(specular_out.begin(), specular_out.end(), out[Parameter::kSpecular].row.begin());
+  std::ranges::copy(specular, in[Parameter::kSpecular].row.begin());
+  std::ranges::copy(specular_out, out[Parameter::kSpecular].row.begin());
   return convert(count, in, out, outside);
 }
 

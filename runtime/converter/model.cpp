@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/contains.hpp"
+
 namespace remap {
 namespace {
 
@@ -37,8 +39,7 @@ constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linu
 bool is_taken(std::string_view id) {
   const bool is_std =
       id.starts_with("std") && id.find_first_not_of("0123456789", 3) == std::string_view::npos;
-  return is_std || std::find(kTakenNames.begin(), kTakenNames.end(), id) != kTakenNames.end() ||
-         std::find(kKeywords.begin(), kKeywords.end(), id) != kKeywords.end();
+  return is_std || contains(kTakenNames, id) || contains(kKeywords, id);
 }
 
 std::string identifier(const std::string& model) {
@@ -63,14 +64,14 @@ bool is_valid_id(const std::string& id) {
     return false;
   const char first = id.front();
   if (first == '_' || (first >= '0' && first <= '9')) return false;
-  return std::all_of(id.begin(), id.end(), [](char c) { return is_identifier_character(c) || c == '_'; });
+  return std::ranges::all_of(id, [](char c) { return is_identifier_character(c) || c == '_'; });
 }
 
 bool is_valid_model(const std::string& name) {
   const auto allowed = [](char c) {
     return is_identifier_character(c) || c == '_' || c == '-' || c == '.' || c == '/';
   };
-  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
+  return !name.empty() && name.size() <= kLongestName && std::ranges::all_of(name, allowed);
 }
 
 bool is_valid_specular(const std::string& name) {

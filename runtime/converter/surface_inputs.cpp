@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/contains.hpp"
 #include "generated/materials/materials.hpp"
 #include "remap/surface.hpp"
 
@@ -93,8 +94,7 @@ void add_surface(Surface surface, Tables& tables) {
   Model::for_each(Model{}, [&](std::string_view name, const auto& value) {
     const std::size_t channels = sizeof(value) / sizeof(float);
     SurfaceInput input{name, std::nullopt, channels, channels_of(value)};
-    if (std::ranges::find(kWithoutMap, name) == kWithoutMap.end())
-      input.parameter = parameter_of(name, channels, tables);
+    if (!contains(kWithoutMap, name)) input.parameter = parameter_of(name, channels, tables);
     tables.surfaces[static_cast<std::size_t>(surface)].push_back(input);
   });
 }
@@ -226,7 +226,7 @@ std::string parameter_option(Parameter parameter) {
   if (is_input(parameter) || parameter == Parameter::kMetalMask || parameter == Parameter::kOcclusion)
     return "--input " + plain_name(parameter);
   std::string option = "--" + plain_name(parameter);
-  std::replace(option.begin(), option.end(), '_', '-');
+  std::ranges::replace(option, '_', '-');
   return option;
 }
 

@@ -1,15 +1,23 @@
 #include "core/files.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <mutex>
+#include <random>
 #include <set>
 #include <utility>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
-#include "core/owner_tag.hpp"
+#include "core/input_file.hpp"
+#include "core/plain_text.hpp"
 #include "core/system.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -191,10 +199,9 @@ OwnedFile::OwnedFile(const fs::path& folder, const fs::path& below, OwnFile use)
     : path_(folder / below), file_(open_own_file(folder, below, use)) {
   if (file_.is_open() || (use == OwnFile::kRead && errno == ENOENT)) return;
   if (errno == EPERM || errno == ELOOP || errno == ENOTDIR || errno == ENXIO)
-    throw output_error(
-        path_.string() +
-        ": is a link, belongs to another user, or is not a file; texremap reads and writes its "
-        "journals only in files of its own user (remove it, or choose another folder)");
+    throw output_error(path_.string() +
+                       ": is a link, belongs to another user, or is not a file; texremap reads and writes "
+                       "its journals only in files of its own user (remove it, or choose another folder)");
   throw system_error(ErrorKind::kOutput, path_.string() + ": cannot be opened", errno);
 }
 
@@ -214,6 +221,92 @@ ScratchFolder::ScratchFolder(const std::string& prefix) {
   std::string name = (fs::temp_directory_path() / (prefix + "-XXXXXX")).string();
   if (!create_scratch_folder(name)) throw output_error(name + ": cannot be created: " + std::strerror(errno));
   path_ = name;
+}
+
+namespace {
+
+constexpr std::size_t kTagDigits = 8;
+
+// Returns a text that identifies the machine since it was started, and its PID namespace. The name of the
+// machine does not suffice, because cloned machines have the same name.
+std::string place_of_processes() {
+  std::error_code ignored;
+  std::string start;
+  try {
+    start = read_file("/proc/sys/kernel/random/boot_id");
+  } catch (const Error&) {
+  }
+  return machine_name() + "/" + start + "/" +
+         std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+}
+
+// Returns the hash FNV-1a with 32 bits (Fowler, Noll, Vo 1991), in hexadecimal digits.
+std::string tag_of(const std::string& text) {
+  std::uint32_t hash = 0x811c9dc5u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
+  std::string tag(kTagDigits, '0');
+  for (std::size_t i = kTagDigits; i-- > 0; hash >>= 4) tag[i] = "0123456789abcdef"[hash & 15u];
+  return tag;
+}
+
+const std::string& own_tag() {
+  static const std::string tag = tag_of(place_of_processes()) + "-";
+  return tag;
+}
+
+}  // namespace
+
+std::string owner_tag() { return own_tag() + std::to_string(own_process()); }
+
+std::string random_letters() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";
+  constexpr std::size_t kCount = 12;  // letters of five bits each
+  std::random_device device;
+  std::string letters(kCount, ' ');
+  for (char& letter : letters) letter = kLetters[device() % kLetters.size()];
+  return letters;
+}
+
+bool is_stale_owner(std::string_view mark) {
+  if (!mark.starts_with(own_tag())) return false;
+  mark.remove_prefix(own_tag().size());
+  int process = 0;
+  const auto [end, failure] = std::from_chars(mark.data(), mark.data() + mark.size(), process);
+  if (failure != std::errc() || end != mark.data() + mark.size() || process <= 0) return false;
+  return has_ended(process);
+}
+
+namespace {
+
+fs::path checked(const std::string& text, const std::string& context, std::string fault) {
+  if (!fault.empty()) throw input_error(context + ": \"" + plain(text) + "\" " + fault);
+  return text;
+}
+
+}  // namespace
+
+std::string fault_of_relative(const std::string& text) {
+  const fs::path path = text;
+  if (path.has_root_path()) return "is an absolute path";
+  if (contains(path, "..")) return "leads out of its folder";
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  return std::ranges::any_of(text, is_control) ? "has control characters" : "";
+}
+
+fs::path safe_relative(const std::string& text, const std::string& context) {
+  return checked(text, context, fault_of_relative(text));
+}
+
+fs::path safe_name(const std::string& text, const std::string& context) {
+  const std::string fault = fault_of_relative(text);
+  return checked(text, context, fault.empty() && fs::path(text).has_parent_path() ? "is not a name" : fault);
+}
+
+bool is_own_name(const fs::path& name) {
+  constexpr std::string_view kOwn = ".texremap";
+  const std::string text = name.string().substr(0, kOwn.size());
+  return std::ranges::equal(text, kOwn,
+                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
 }
 
 }  // namespace remap

@@ -1,4 +1,5 @@
-// This file writes files. A result appears under its final name when it is complete, or not at all.
+// This file writes files. A result appears under its final name when it is complete, or not at all. It also
+// checks paths from manifests and journals, because others may have written these files.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +14,7 @@
 namespace remap {
 
 // Returns a new hidden name for an unfinished file in the folder of `path`:
-// `.STEM.unfinished-MARK-LETTERS.EXTENSION`. MARK is the mark of this process (owner_tag.hpp). The extension
+// `.STEM.unfinished-MARK-LETTERS.EXTENSION`. MARK is the mark of this process (owner_tag()). The extension
 // stays, because image writers choose the format by it. The stem is shortened if the name would exceed 255
 // bytes. The first call for a folder also removes files of processes of this machine that have ended. A
 // process that is killed cannot remove its own files.
@@ -124,5 +125,31 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
+
+// Returns `TAG-PID` of this process. The tag has eight hexadecimal digits. They identify the machine since it
+// was started, and the PID namespace, which differs between containers.
+std::string owner_tag();
+
+// Returns random letters from the system, for file names that nobody can guess in advance.
+std::string random_letters();
+
+// Returns true if `mark` is of a process of this machine and namespace that has ended. Returns false for
+// other texts, and for a mark of another machine, because this machine cannot check it. If a new process has
+// the same number, returns false until this process has ended, too.
+bool is_stale_owner(std::string_view mark);
+
+// Returns why `text` is not a path below a folder: it is absolute, it leads up with `..`, or it has control
+// characters or line breaks. Returns an empty text for a safe path.
+std::string fault_of_relative(const std::string& text);
+
+// Returns `text` as a path below a folder. It is empty for the folder itself. If `text` is not safe, throws
+// kInput, beginning with `context`.
+std::filesystem::path safe_relative(const std::string& text, const std::string& context);
+// Checks a single name in the same way. The name may be empty.
+std::filesystem::path safe_name(const std::string& text, const std::string& context);
+
+// Returns true for the name of a file of this program in an output folder (`.texremap*`). Other files must
+// not use such names.
+bool is_own_name(const std::filesystem::path& name);
 
 }  // namespace remap

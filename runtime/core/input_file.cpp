@@ -77,8 +77,7 @@ int opened(const fs::path& path) {
 void require_regular_file(const fs::path& path) {
   const std::optional<FileFacts> found = facts_of(path);
   if (!found) fail_to_read(path);
-  if (found->type != fs::file_type::regular)
-    throw Error(ErrorKind::kInput, path.string() + ": " + kind_text(found->type));
+  if (found->type != fs::file_type::regular) throw input_error(path.string() + ": " + kind_text(found->type));
 }
 
 void confine_inputs(std::vector<fs::path> folders) {
@@ -150,9 +149,8 @@ namespace {
 
 [[noreturn]] void fail_of_size(const fs::path& path, std::uintmax_t largest) {
   const bool megabytes = largest >= 1 << 20;
-  throw Error(ErrorKind::kInput, path.string() + ": has more than " +
-                                     std::to_string(megabytes ? largest >> 20 : largest) +
-                                     (megabytes ? " MB" : " bytes") + ", which is the limit for such a file");
+  throw input_error(path.string() + ": has more than " + std::to_string(megabytes ? largest >> 20 : largest) +
+                    (megabytes ? " MB" : " bytes") + ", which is the limit for such a file");
 }
 
 // Returns true if the name leads to a file that the caller's shell has opened.
@@ -166,7 +164,7 @@ void require_room(const fs::path& path, std::uintmax_t size, std::uintmax_t larg
 }
 
 // Reads to the end of the pipe. One signal does not stop it. A second signal ends the process
-// (interruption.hpp).
+// (command_line/progress.hpp).
 std::string content_of_pipe(const fs::path& path, std::uintmax_t largest) {
   const OpenFile file(open_to_read(path));
   if (!file.is_open()) fail_to_read(path);

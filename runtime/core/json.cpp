@@ -20,7 +20,7 @@ bool is_field(const Json& entry) {
 }  // namespace
 
 Json::Json(std::initializer_list<Json> entries) {
-  if (!std::all_of(entries.begin(), entries.end(), is_field) || entries.size() == 0) {
+  if (!std::ranges::all_of(entries, is_field) || entries.size() == 0) {
     value_ = List(entries);
     return;
   }
@@ -43,8 +43,7 @@ Json Json::object() {
 Json& Json::operator[](const std::string& key) {
   if (is_null()) value_ = Object();
   Object& fields = std::get<Object>(value_);
-  const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == key; });
+  const auto found = std::ranges::find_if(fields, [&](const auto& field) { return field.first == key; });
   if (found != fields.end()) return found->second;
   return fields.emplace_back(key, Json()).second;
 }
@@ -52,8 +51,7 @@ Json& Json::operator[](const std::string& key) {
 const Json* Json::find(std::string_view key) const {
   const Object* all = fields();
   if (all == nullptr) return nullptr;
-  const auto found =
-      std::find_if(all->begin(), all->end(), [&](const auto& field) { return field.first == key; });
+  const auto found = std::ranges::find_if(*all, [&](const auto& field) { return field.first == key; });
   return found == all->end() ? nullptr : &found->second;
 }
 

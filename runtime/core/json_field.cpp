@@ -7,7 +7,6 @@
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -164,8 +163,6 @@ void Field::require(bool condition, const std::string& expected) const {
   if (!condition) fail("expected " + expected + ", found " + plain(value_.dump(), kExcerpt));
 }
 
-void Field::fail(const std::string& what) const {
-  throw Error(ErrorKind::kInput, plain(context_ + ": " + what));
-}
+void Field::fail(const std::string& what) const { throw input_error(plain(context_ + ": " + what)); }
 
 }  // namespace remap

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 
 namespace remap {
 namespace {
@@ -102,7 +102,7 @@ double decimal_value(float value) {
 }
 
 std::string float_literal(float value) {
-  if (!std::isfinite(value)) throw Error(ErrorKind::kNumeric, "emit: a coefficient is not finite");
+  if (!std::isfinite(value)) throw numeric_error("emit: a coefficient is not finite");
   std::string text = shortest(value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text + "f";

@@ -2,6 +2,7 @@
 // which system it runs on: CMake chooses the system_*.cpp for POSIX, Windows or WebAssembly.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -89,7 +90,7 @@ std::uint64_t memory_size();            // memory of this machine in bytes, 0 if
 std::filesystem::path program_file();   // path of this program, empty if it is unknown
 void raise_limit_of_open_files();       // raises the limit as far as the system allows
 void fail_at_limit_of_file_size();      // makes writes beyond the limit fail instead of ending the process
-void watch_signals(void (*note)(int));  // interruption.hpp lists the signals and their effect
+void watch_signals(void (*note)(int));  // command_line/progress.hpp lists the signals and their effect
 
 // A ProcessCopy is a copy of this process, with the stream of bytes between the two.
 struct ProcessCopy {
@@ -134,6 +135,16 @@ class OpenFile {
 
  private:
   int descriptor_;
+};
+
+// A Stopwatch measures the time since it was made.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace remap

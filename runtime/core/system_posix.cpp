@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <wctype.h>
 
-#include "core/owner_tag.hpp"
+#include "core/files.hpp"
 #include "core/system.hpp"
 
 namespace remap {

@@ -6,8 +6,9 @@
 #include <numbers>
 #include <string>
 
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 #include "look/scene.hpp"
 #include "remap/error.hpp"
 
@@ -168,11 +169,10 @@ double reflected(const SphereMaterial& material, const LocalGeometry& geometry) 
 
 void require(const SphereSampling& sampling) {
   if (sampling.resolution < 4 || sampling.resolution > 1024)
-    throw Error(ErrorKind::kUsage,
-                "resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
+    throw usage_error("resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
   if (sampling.samples < 16 || sampling.samples > 1 << 20)
-    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) +
-                                       " is out of range (16 to " + std::to_string(1 << 20) + ")");
+    throw usage_error("samples: " + std::to_string(sampling.samples) + " is out of range (16 to " +
+                      std::to_string(1 << 20) + ")");
 }
 
 // Calls take(index, share) for the texels of a map that are closest to a point of the ball.
@@ -288,7 +288,7 @@ std::vector<float> SpherePictures::radiance(std::size_t material, std::size_t en
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling) {
   require(sampling);
-  if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
+  if (materials.empty()) throw usage_error("spheres: at least one material is required");
 
   SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
   const Mixture mixture = mixture_for(materials, sampling.samples);

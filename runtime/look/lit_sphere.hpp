@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "look/brdf.hpp"
-#include "look/radiance_pyramid.hpp"
+#include "look/environment.hpp"
 
 namespace remap {
 
@@ -95,7 +95,7 @@ std::vector<std::vector<float>> render_textured(const RadiancePyramid& environme
                                                 std::span<const TexturedBall> balls, const Image& normals,
                                                 const SphereSampling& sampling);
 
-// Converts linear values to display values (look/image_similarity.hpp).
+// Converts linear values to display values (look/image.hpp).
 std::vector<float> display_values(std::span<const float> radiance);
 
 // A DisplayedSphere is a picture in display values. It may show another shape.

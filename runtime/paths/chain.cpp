@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "remap/path.hpp"
 
 namespace remap {
@@ -16,9 +16,8 @@ void require_joined(const std::vector<const Converter*>& steps) {
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const ConverterInfo &before = steps[i]->info(), &after = steps[i + 1]->info();
     if (before.target == after.source) continue;
-    throw Error(ErrorKind::kInput, before.id + " then " + after.id + ": the first converts to " +
-                                       side_text(before.target) + ", but the second converts from " +
-                                       side_text(after.source));
+    throw input_error(before.id + " then " + after.id + ": the first converts to " +
+                      side_text(before.target) + ", but the second converts from " + side_text(after.source));
   }
 }
 
@@ -86,7 +85,7 @@ std::vector<float> spread(const Range& range, std::size_t count) {
 
 bool all_within(const std::vector<float>& values, const Range& range) {
   const float low = float_of(range.min), high = float_of(range.max);
-  return std::all_of(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
+  return std::ranges::all_of(values, [&](float v) { return v >= low && v <= high; });
 }
 
 enum class Look { kRoughness, kBoth };

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "remap/error.hpp"
-#include "stages/workflow_stages.hpp"
+#include "core/plain_text.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {
@@ -36,7 +36,7 @@ void require_known(const std::string& word, const std::string& name, const Conve
   if (graph.has_model(name) || !graph.models_of(name).empty() || find_workflow_model(name) != nullptr) return;
   std::vector<std::string> known = graph.models();
   for (const std::string& model : graph.models())
-    if (std::ranges::find(known, renderer_of(model)) == known.end()) known.push_back(renderer_of(model));
+    if (!contains(known, renderer_of(model))) known.push_back(renderer_of(model));
   for (const WorkflowModel& model : workflow_models()) known.push_back(model_of(model.end));
   for (const ModelAlias& alias : model_aliases()) known.emplace_back(alias.name);
   const std::string near = joined(nearest_names(name, known, kNamesShown), ", ");
@@ -229,7 +229,7 @@ std::vector<Parameter> ConversionChoice::targets() const {
 
 bool ConversionChoice::has_source(Parameter parameter) const {
   const std::vector<Parameter> all = sources();
-  return std::find(all.begin(), all.end(), parameter) != all.end();
+  return contains(all, parameter);
 }
 
 ConversionChoice choose_conversion(const ConversionRequest& request, const ConverterGraph& graph) {
@@ -291,8 +291,7 @@ namespace {
 // Adds the stages of the workflows around the BRDF.
 BuiltConversion with_material(BuiltConversion conversion, InstructionSet set) {
   if (conversion.brdf != nullptr && !conversion.brdf->self_test())
-    throw Error(ErrorKind::kNumeric,
-                conversion.brdf->info().id + ": self-test failed (results would be wrong)");
+    throw numeric_error(conversion.brdf->info().id + ": self-test failed (results would be wrong)");
   if (conversion.choice.is_material())
     conversion.material = make_workflow_converter(stages_of(conversion.choice, conversion.brdf), set);
   return conversion;

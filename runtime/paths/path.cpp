@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/nearest_name.hpp"
+#include "core/contains.hpp"
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "paths/path_search.hpp"
-#include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
 
 namespace remap {
@@ -21,13 +22,9 @@ double middle_alpha(const ConverterInfo& info) {
 
 // Returns the names sorted, each name once.
 std::vector<std::string> unique_names(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
-}
-
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Refuses a name that is not one of the `known` models.
@@ -37,9 +34,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   for (const std::string& model : known)
     if (!name.empty() && renderer_of(model) == name) of_renderer.push_back(model);
   if (!of_renderer.empty())
-    throw Error(ErrorKind::kUsage, name + ": is a renderer, not a model (choose one of its models: " +
-                                       joined(of_renderer, ", ") + ")");
-  throw Error(ErrorKind::kUsage, "unknown " + role + " '" + name + "'" + suggestion(name, known));
+    throw usage_error(
+        name + ": is a renderer, not a model (choose one of its models: " + joined(of_renderer, ", ") + ")");
+  throw usage_error("unknown " + role + " '" + name + "'" + suggestion(name, known));
 }
 
 }  // namespace
@@ -84,8 +81,8 @@ std::string renderer_of(const std::string& model) {
 
 ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours detours)
     : converters_(std::move(converters)), graph_(std::make_shared<DirectedGraph>()) {
-  std::sort(converters_.begin(), converters_.end(),
-            [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
+  std::ranges::sort(converters_,
+                    [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
   for (const Converter* converter : converters_) {
     models_.push_back(converter->info().source.model);
     models_.push_back(converter->info().target.model);
@@ -127,7 +124,7 @@ std::vector<std::string> ConverterGraph::names_connected(const std::string& mode
   return names;
 }
 
-bool ConverterGraph::has_model(const std::string& name) const { return holds(models_, name); }
+bool ConverterGraph::has_model(const std::string& name) const { return contains(models_, name); }
 
 std::vector<std::string> ConverterGraph::reachable_from(const std::string& model) const {
   return names_connected(model, true);
@@ -167,7 +164,7 @@ std::vector<ConverterPath> ConverterGraph::find_paths(const PathRequest& request
 std::vector<ConverterPath> ConverterGraph::paths_to_renderer(const PathRequest& request) const {
   std::vector<ConverterPath> paths;
   for (const std::string& model : models_of(request.target)) {
-    if (model == request.source || holds(request.via, model)) continue;
+    if (model == request.source || contains(request.via, model)) continue;
     const std::vector<std::size_t> nodes = waypoints({request.source, model, request.via});
     for (const std::vector<std::size_t>& edges : least_paths(*graph_, nodes, 1))
       paths.push_back(path_of(edges));
@@ -185,12 +182,11 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   std::vector<std::size_t> nodes;
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
-    if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
-      throw Error(
-          ErrorKind::kUsage,
-          model + (model == request.source && model == request.target && request.via.empty()
-                       ? ": source and target are the same model (choose another model for one of them)"
-                       : ": the path would use this model twice (choose another model)"));
+    if (contains(nodes, node(model)))
+      throw usage_error(model +
+                        (model == request.source && model == request.target && request.via.empty()
+                             ? ": source and target are the same model (choose another model for one of them)"
+                             : ": the path would use this model twice (choose another model)"));
     nodes.push_back(node(model));
   };
   add(request.source, "source model", sources);
@@ -207,13 +203,13 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     const auto legs = least_paths(*graph_, {waypoints[i], waypoints[i + 1]}, 1);
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
-      throw Error(ErrorKind::kUsage,
-                  from + " to " + to + ": no converters join these models (" + from + " can become " +
-                      (reached.empty() ? "no other model" : joined(reached, ", ")) +
-                      (reached.size() < 2 ? "" : "; most similar name: " + closest_name(to, reached)) + "; " +
-                      (reaching_it.empty() ? "no model can become " + to
-                                           : to + " can be made from " + joined(reaching_it, ", ")) +
-                      ")");
+      throw usage_error(from + " to " + to + ": no converters join these models (" + from + " can become " +
+                        (reached.empty() ? "no other model" : joined(reached, ", ")) +
+                        (reached.size() < 2 ? "" : "; most similar name: " + closest_name(to, reached)) +
+                        "; " +
+                        (reaching_it.empty() ? "no model can become " + to
+                                             : to + " can be made from " + joined(reaching_it, ", ")) +
+                        ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }
@@ -222,8 +218,8 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     if (std::find(walk.begin(), walk.begin() + static_cast<std::ptrdiff_t>(i), walk[i]) !=
         walk.begin() + static_cast<std::ptrdiff_t>(i))
       twice = walk[i];
-  throw Error(ErrorKind::kUsage, joined(walk, " -> ") + ": visits " + twice +
-                                     " twice, as every path through these models does (choose other models)");
+  throw usage_error(joined(walk, " -> ") + ": visits " + twice +
+                    " twice, as every path through these models does (choose other models)");
 }
 
 ModelSide ConverterGraph::side_of(const std::string& model) const {
@@ -260,19 +256,18 @@ bool is_less(const ConverterPath& a, const ConverterPath& b) {
 }  // namespace
 
 bool is_copy(const ConverterPath& path) {
-  return std::all_of(path.steps.begin(), path.steps.end(),
-                     [](const Converter* step) { return step->info().is_copy; });
+  return std::ranges::all_of(path.steps, [](const Converter* step) { return step->info().is_copy; });
 }
 
 bool is_measured(const ConverterPath& path) {
-  return std::all_of(path.steps.begin(), path.steps.end(),
-                     [](const Converter* step) { return step->info().image_rms_error.has_value(); });
+  return std::ranges::all_of(path.steps,
+                             [](const Converter* step) { return step->info().image_rms_error.has_value(); });
 }
 
 const ConverterPath& closest_path(const std::vector<ConverterPath>& paths) {
   std::vector<double> areas;
   for (const ConverterPath& path : paths) areas.push_back(covered_area(path));
-  const double least_area = kLeastCoverage * *std::max_element(areas.begin(), areas.end());
+  const double least_area = kLeastCoverage * *std::ranges::max_element(areas);
   const ConverterPath* closest = nullptr;
   for (std::size_t i = 0; i < paths.size(); ++i)
     if (areas[i] >= least_area && (closest == nullptr || is_less(paths[i], *closest))) closest = &paths[i];

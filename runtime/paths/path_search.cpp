@@ -91,8 +91,9 @@ class Search {
     for (auto step = beginning.edges.rbegin(); step != beginning.edges.rend(); ++step) {
       if (graph_.edges[*step].to == leg_start) return false;
       const std::size_t left = graph_.edges[*step].from;
-      if (std::any_of(graph_.edges.begin(), graph_.edges.end(),
-                      [&](const DirectedEdge& other) { return other.from == left && other.to == edge.to; }))
+      if (std::ranges::any_of(graph_.edges, [&](const DirectedEdge& other) {
+            return other.from == left && other.to == edge.to;
+          }))
         return true;
     }
     return false;

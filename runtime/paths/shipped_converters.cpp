@@ -1,15 +1,3 @@
-#include "remap/shipped_converters.hpp"
-
-#include <algorithm>
-#include <string_view>
-#include <utility>
-#include <variant>
-
-#include "core/input_file.hpp"
-#include "paths/converter_file.hpp"
-#include "remap/error.hpp"
-#include "stages/brdf_stage.hpp"
-
 // The assembler includes generated/converters.json, because a string literal would take the compiler seconds.
 extern "C" {
 extern const char remap_shipped_text_begin[];
@@ -51,6 +39,20 @@ __asm__(REMAP_ENTER_CONSTANTS
         REMAP_LEAVE_CONSTANTS);
 // clang-format on
 
+#include "remap/shipped_converters.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "converter/converter_data.hpp"
+#include "core/errors.hpp"
+#include "core/input_file.hpp"
+#include "paths/converter_file.hpp"
+#include "stages/stage.hpp"
+#include "stages/warp_json.hpp"
+
 namespace remap {
 namespace {
 
@@ -81,7 +83,7 @@ std::vector<ConverterData> read_data(const fs::path& path) {
 }
 
 ConverterList make_converters(std::vector<ConverterData> all, InstructionSet set) {
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
+  std::ranges::sort(all, [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
   ConverterList made;
   for (const ConverterData& data : all) made.push_back(make_converter(data, set));
   return made;
@@ -101,15 +103,13 @@ ConverterList make_shipped(InstructionSet set) {
 
 ConverterList read_converters(const fs::path& path, InstructionSet set) {
   if (!fs::exists(path))
-    throw Error(ErrorKind::kInput, path.string() +
-                                       ": does not exist (give a file of converters, a fit or a folder "
-                                       "of fits)");
+    throw input_error(path.string() +
+                      ": does not exist (give a file of converters, a fit or a folder of fits)");
   std::vector<ConverterData> data = read_data(path);
   if (data.empty())
-    throw Error(ErrorKind::kInput,
-                path.string() +
-                    ": contains no converter (give the converters.json of `remapc emit --all`, a fit or "
-                    "a folder of fits)");
+    throw input_error(path.string() +
+                      ": contains no converter (give the converters.json of `remapc emit --all`, a fit or a "
+                      "folder of fits)");
   return make_converters(std::move(data), set);
 }
 
@@ -136,9 +136,35 @@ const Converter& find_converter(const std::string& source_model, const std::stri
     const ConverterInfo& info = converter->info();
     if (info.source.model == source_model && info.target.model == target_model) return *converter;
   }
-  throw Error(ErrorKind::kUsage,
-              source_model + " to " + target_model +
-                  ": no converter joins these two models directly (search for a path instead)");
+  throw usage_error(source_model + " to " + target_model +
+                    ": no converter joins these two models directly (search for a path instead)");
+}
+
+FittedConverter fitted_converter_from_json(std::string_view text, const std::string& context) {
+  const Json json = parse_json(text, context);
+  const Field root(json, context);
+  require_fit_file(root);
+  read_id(root["id"]);
+  if (is_of_materials(root)) {
+    if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
+    return UnusedFit{};
+  }
+  const std::optional<ConverterData> converter = read_fitted_converter(root);
+  if (!converter)
+    root["converter"].fail("missing, because the fit could not be lowered (remapc fit --lower)");
+  return *converter;
+}
+
+bool is_converter_list(std::string_view text) { return text.find("\"remap-converters\"") < 64; }
+
+FittedConverter load_fitted_converter(const std::filesystem::path& path) {
+  return fitted_converter_from_json(read_file(path), path.string());
+}
+
+WarpMapFit load_warp_fit(const std::filesystem::path& path) {
+  FittedConverter fit = load_fitted_converter(path);
+  if (auto* warp = std::get_if<WarpMapFit>(&fit)) return std::move(*warp);
+  throw input_error(path.string() + ": not the fit of a warp (`remapc warp` makes them)");
 }
 
 }  // namespace remap

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -201,13 +201,13 @@ Discovery find_sets(const fs::path& root, const WalkOptions& options, const Nami
              discovery);
 
   const auto key = [](const FoundSet& set) { return (set.folder / set.name).string(); };
-  std::stable_sort(discovery.sets.begin(), discovery.sets.end(),
-                   [&](const FoundSet& a, const FoundSet& b) { return key(a) < key(b); });
+  std::ranges::stable_sort(discovery.sets,
+                           [&](const FoundSet& a, const FoundSet& b) { return key(a) < key(b); });
   const auto bytes = [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); };
-  std::sort(discovery.unrecognised.begin(), discovery.unrecognised.end(), bytes);
-  std::sort(discovery.others.begin(), discovery.others.end(), bytes);
-  std::sort(discovery.problems.begin(), discovery.problems.end(),
-            [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
+  std::ranges::sort(discovery.unrecognised, bytes);
+  std::ranges::sort(discovery.others, bytes);
+  std::ranges::sort(discovery.problems,
+                    [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
   return discovery;
 }
 

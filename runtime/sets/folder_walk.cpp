@@ -8,10 +8,11 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/contains.hpp"
+#include "core/errors.hpp"
 #include "core/plain_text.hpp"
 #include "core/system.hpp"
-#include "remap/error.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -26,10 +27,6 @@ std::string extension_of(std::string_view name) {
   return dot == std::string_view::npos || dot == 0 ? "" : lower(name.substr(dot + 1));
 }
 
-bool holds(const auto& extensions, const std::string& extension) {
-  return std::ranges::find(extensions, extension) != extensions.end();
-}
-
 class Walker {
  public:
   Walker(const fs::path& root, const WalkOptions& options)
@@ -42,8 +39,7 @@ class Walker {
 
   Walk run() {
     visit(fs::path());
-    if (!walk_.problems.empty() && !root_was_read_)
-      throw Error(ErrorKind::kInput, walk_.problems.front().message);
+    if (!walk_.problems.empty() && !root_was_read_) throw input_error(walk_.problems.front().message);
     // Links come last, so that a folder below the root is found under its own name.
     while (!folders_.empty() || !links_.empty()) {
       std::set<std::string>& next = folders_.empty() ? links_ : folders_;
@@ -78,7 +74,7 @@ class Walker {
     else
       root_was_read_ = true;
     if (images.empty()) return;
-    std::sort(images.begin(), images.end());
+    std::ranges::sort(images);
     walk_.images.emplace(relative, std::move(images));
   }
 
@@ -92,8 +88,8 @@ class Walker {
     if (fs::is_directory(status)) {
       if (recursive_) (link ? links_ : folders_).insert(relative.string());
     } else if (const std::string extension = extension_of(name);
-               holds(kExtensions, extension) || holds(also_, extension)) {
-      if (fs::is_regular_file(status) && holds(kExtensions, extension))
+               contains(kExtensions, extension) || contains(also_, extension)) {
+      if (fs::is_regular_file(status) && contains(kExtensions, extension))
         images.push_back(name);
       else if (fs::is_regular_file(status))
         walk_.others.push_back(relative);

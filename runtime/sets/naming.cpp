@@ -5,8 +5,7 @@
 #include <optional>
 #include <tuple>
 
-#include "sets/name_pieces.hpp"
-
+#include "core/contains.hpp"
 namespace remap {
 
 // A NameParts holds the pieces of a name up to the word of the map. The resolution, the format and ignored
@@ -25,8 +24,7 @@ constexpr std::array<std::string_view, 12> kFormats = {"exr", "tif", "tiff", "pn
 
 // Returns true if `digits` is the side of a square map: a power of two from 128 to 32768.
 bool is_side(std::string_view digits) {
-  if (digits.size() < 3 || digits.size() > 5 || !std::all_of(digits.begin(), digits.end(), is_digit))
-    return false;
+  if (digits.size() < 3 || digits.size() > 5 || !std::ranges::all_of(digits, is_digit)) return false;
   unsigned side = 0;
   for (const char c : digits) side = side * 10 + static_cast<unsigned>(c - '0');
   return side >= 128 && side <= 32768 && (side & (side - 1)) == 0;
@@ -45,7 +43,7 @@ bool begins_part(std::string_view name, std::size_t i) {
   return i + 1 < name.size() && is_lower(name[i + 1]);
 }
 
-bool is_acronym(std::string_view word) { return std::none_of(word.begin(), word.end(), is_lower); }
+bool is_acronym(std::string_view word) { return std::ranges::none_of(word, is_lower); }
 
 // A Stem is the result of stem_before(): where the set's name ends, and where the resolution stands.
 struct Stem {
@@ -81,9 +79,7 @@ bool is_resolution(std::string_view piece) {
   return is_side(piece.substr(0, cross)) && is_side(piece.substr(cross + 1));
 }
 
-bool is_format_word(std::string_view piece) {
-  return std::find(kFormats.begin(), kFormats.end(), lower(piece)) != kFormats.end();
-}
+bool is_format_word(std::string_view piece) { return contains(kFormats, lower(piece)); }
 
 std::string word_key(std::string_view word) {
   std::string key;
@@ -130,10 +126,8 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   for (const Word& word : found->second) {
     const Habit& habit = habits_[word.habit];
     if (!ending.follows_separator && !habit.camel_case) continue;
-    const auto allowed = [&](std::size_t cut) {
-      return std::find(word.cuts.begin(), word.cuts.end(), cut) != word.cuts.end();
-    };
-    if (!std::all_of(ending.cuts.begin(), ending.cuts.end(), allowed)) continue;
+    const auto allowed = [&](std::size_t cut) { return contains(word.cuts, cut); };
+    if (!std::ranges::all_of(ending.cuts, allowed)) continue;
     const std::tuple rank{!habit.built_in, word.text == ending.text, habit.resolution == ending.resolution};
     if (best == nullptr || rank > best_rank) {
       best = &word;

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <set>
 
+#include "core/contains.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/surface.hpp"
 #include "sets/naming.hpp"
 
@@ -20,8 +21,7 @@ namespace {
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
   field.require(field.json().fields() != nullptr, "an object");
   for (const auto& [key, value] : *field.json().fields())
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      field.fail("unknown field '" + key + "'" + suggestion(key, known));
+    if (!contains(known, key)) field.fail("unknown field '" + key + "'" + suggestion(key, known));
 }
 
 // Returns the value that the text names. Messages call the value `noun`.

@@ -5,9 +5,9 @@
 #include <charconv>
 #include <map>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "sets/folder_walk.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ bool is_udim(int number) { return number >= kFirstUdim && number <= kLastUdim; }
 
 // Returns the number that `digits` spells. Returns nothing for other text and for too many digits.
 std::optional<int> digits_value(std::string_view digits) {
-  if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit))
+  if (digits.empty() || digits.size() > kMostDigits || !std::ranges::all_of(digits, is_digit))
     return std::nullopt;
   int value = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -133,8 +133,8 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
   for (std::size_t i = 0; i < name.size();) {
     const std::optional<TilePattern> found = pattern_at(name, i);
     if (found && pattern)
-      throw Error(ErrorKind::kUsage, display_path(name) + ": has two placeholders, " + pattern->token +
-                                         " and " + found->token + " (use one)");
+      throw usage_error(display_path(name) + ": has two placeholders, " + pattern->token + " and " +
+                        found->token + " (use one)");
     if (found) pattern = found;
     i += found ? found->token.size() : 1;
   }
@@ -143,9 +143,8 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
 
 std::string tile_name(const TilePattern& pattern, int number) {
   if (pattern.style == TileStyle::kFrame ? number < 0 : !is_udim(number))
-    throw Error(ErrorKind::kUsage,
-                display_path(pattern.text()) + ": invalid tile number " + std::to_string(number) +
-                    (pattern.style == TileStyle::kFrame ? " (frames begin at 0)" : " (use 1001 to 1999)"));
+    throw usage_error(display_path(pattern.text()) + ": invalid tile number " + std::to_string(number) +
+                      (pattern.style == TileStyle::kFrame ? " (frames begin at 0)" : " (use 1001 to 1999)"));
   return pattern.before + number_in_style(pattern, number) + pattern.after;
 }
 
@@ -172,14 +171,13 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
 Tiles existing_tiles(const fs::path& path) {
   const std::optional<TilePattern> pattern = tile_pattern(path.filename().string());
   if (!pattern)
-    throw Error(ErrorKind::kUsage,
-                display_path(path) +
-                    ": no placeholder for tiles in the file name (use <UDIM>, <UVTILE>, #### or %04d)");
+    throw usage_error(display_path(path) +
+                      ": no placeholder for tiles in the file name (use <UDIM>, <UVTILE>, #### or %04d)");
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   for (const auto& [token, style] : kTokens)
     if (folder.string().find(token) != std::string::npos)
-      throw Error(ErrorKind::kUsage, display_path(path) + ": " + std::string(token) +
-                                         " in a folder name (use it in the file name)");
+      throw usage_error(display_path(path) + ": " + std::string(token) +
+                        " in a folder name (use it in the file name)");
 
   Tiles tiles;
   std::error_code failure;
@@ -190,8 +188,7 @@ Tiles existing_tiles(const fs::path& path) {
     std::error_code unreadable;
     if (number && entry->is_regular_file(unreadable)) tiles[*number] = path.parent_path() / name;
   }
-  if (failure)
-    throw Error(ErrorKind::kInput, display_path(folder) + ": cannot be read: " + failure.message());
+  if (failure) throw input_error(display_path(folder) + ": cannot be read: " + failure.message());
   return tiles;
 }
 
@@ -214,11 +211,10 @@ std::vector<TileGroup> group_tiles(std::span<const std::string> names) {
     }
     TileGroup group{pattern.text(), pattern, {}};
     for (const Candidate& candidate : candidates) group.numbers.push_back(candidate.number);
-    std::sort(group.numbers.begin(), group.numbers.end());
+    std::ranges::sort(group.numbers);
     groups.push_back(std::move(group));
   }
-  std::sort(groups.begin(), groups.end(),
-            [](const TileGroup& a, const TileGroup& b) { return a.name < b.name; });
+  std::ranges::sort(groups, [](const TileGroup& a, const TileGroup& b) { return a.name < b.name; });
   return groups;
 }
 

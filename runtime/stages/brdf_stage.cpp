@@ -1,5 +1,3 @@
-#include "stages/brdf_stage.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +5,8 @@
 #include <limits>
 
 #include "converter/compact_form.hpp"
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 #include "stages/kernels.hpp"
 #include "stages/stage.hpp"
 
@@ -16,9 +14,7 @@ namespace remap {
 namespace {
 
 void require_evaluable(const ConverterData& data) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error(ErrorKind::kNumeric, data.info.id + ": " + what);
-  };
+  const auto refuse = [&](const std::string& what) { throw numeric_error(data.info.id + ": " + what); };
   for (const FactorTerms* factor : {&data.form.alpha, &data.form.specular}) {
     if (factor->size() > kMostPowersOfT)
       refuse("has " + std::to_string(factor->size()) + " powers of specular (at most " +

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "remap/warp.hpp"
 
 namespace remap {
@@ -30,11 +30,11 @@ double width_share(const AppearanceCoordinates& space, float alpha) noexcept {
 double clamped_reflectance(float value) noexcept { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
 
 bool has_nan(const WarpTexel& texel) noexcept {
-  return std::any_of(texel.begin(), texel.end(), [](float value) { return std::isnan(value); });
+  return std::ranges::any_of(texel, [](float value) { return std::isnan(value); });
 }
 
 bool all_finite(const std::vector<float>& values) {
-  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+  return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
 
 std::size_t power(std::size_t base, std::size_t exponent) noexcept {
@@ -44,7 +44,7 @@ std::size_t power(std::size_t base, std::size_t exponent) noexcept {
 }
 
 void require(bool holds, const std::string& context, const char* found_and_expected) {
-  if (!holds) throw Error(ErrorKind::kInput, context + ": " + found_and_expected);
+  if (!holds) throw input_error(context + ": " + found_and_expected);
 }
 
 using Position = std::array<double, kLargestWarpDimension>;
@@ -183,7 +183,7 @@ std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates&
   u[6] = width_share(space, texel[6]);
   std::array<double, kQuadraticTerms> terms{};
   terms[0] = 1.0;
-  std::copy(u.begin(), u.end(), terms.begin() + 1);
+  std::ranges::copy(u, terms.begin() + 1);
   std::size_t next = 1 + u.size();
   for (std::size_t i = 0; i < u.size(); ++i)
     for (std::size_t j = i; j < u.size(); ++j) terms[next++] = u[i] * u[j];

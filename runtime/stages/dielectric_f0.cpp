@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 
 namespace remap {
 
@@ -11,8 +11,8 @@ namespace code = workflow_code;
 
 bool has_nan(const SpecularMaterial& material) {
   const auto is_nan = [](float value) { return std::isnan(value); };
-  return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_nan) ||
-         std::any_of(material.specular.begin(), material.specular.end(), is_nan) || is_nan(material.width);
+  return std::ranges::any_of(material.diffuse, is_nan) || std::ranges::any_of(material.specular, is_nan) ||
+         is_nan(material.width);
 }
 
 code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& material) {
@@ -44,8 +44,7 @@ double mean_residual(const SpecularWorkflow& specular, MetallicWorkflow metallic
     sum += std::max(code::error_of(texel, use, code::best_share(texel, use, 0.0f)), 0.0f);
     ++count;
   }
-  if (count == 0)
-    throw Error(ErrorKind::kInput, "dielectric F0: cannot be estimated from maps without a valid texel");
+  if (count == 0) throw input_error("dielectric F0: cannot be estimated from maps without a valid texel");
   return std::sqrt(sum / static_cast<double>(count));
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/nearest_name.hpp"
+#include "core/plain_text.hpp"
 #include "remap/converter.hpp"
 #include "remap/error.hpp"
 

@@ -109,7 +109,7 @@ std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Blo
 }
 
 bool self_test(std::span<const std::shared_ptr<const Stage>> stages) {
-  return std::all_of(stages.begin(), stages.end(), [](const auto& stage) { return stage->self_test(); });
+  return std::ranges::all_of(stages, [](const auto& stage) { return stage->self_test(); });
 }
 
 }  // namespace remap

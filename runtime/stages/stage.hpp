@@ -1,4 +1,5 @@
-// This file declares the stages of a converter, which run one after another over a block of texels.
+// This file declares the stages of a converter, which run one after another over a block of texels,
+// and makes converters of stages.
 #pragma once
 
 #include <array>
@@ -7,8 +8,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
+#include "converter/converter_data.hpp"
 #include "remap/converter.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 
@@ -97,5 +101,24 @@ std::size_t run_stages(std::span<const std::shared_ptr<const Stage>> stages, Blo
                        std::uint8_t* outside);
 // Returns true if all stages pass their tests.
 bool self_test(std::span<const std::shared_ptr<const Stage>> stages);
+
+// Makes a converter from `data`. Throws kNumeric if the domain is empty or negative.
+std::unique_ptr<Converter> make_converter(const ConverterData& data,
+                                          InstructionSet set = best_instruction_set());
+
+// Makes a stage that converts base color and metallic to diffuse and specular by equation (2). The width
+// stays unchanged. `diffuse` is the convention of the result, and `width` is the kind of width. Throws
+// kInput, beginning with `context`, like require_valid().
+std::shared_ptr<const Stage> specular_stage(const MetallicWorkflow& source, DiffuseConvention diffuse,
+                                            RoughnessEncoding width, InstructionSet set,
+                                            const std::string& context);
+
+// Returns the id, models and encodings of a converter between workflows.
+ConverterInfo ends_of(const WorkflowStages& stages, InstructionSet set);
+
+// Makes a converter like make_workflow_converter() without BRDF, from a metallic workflow. Each texel has its
+// own F0 of dielectrics, in kSpecular of the source (KHR_materials_specular). The F0 of `stages.source` is
+// not used. Diffuse is scaled by 1 - max(F0).
+std::unique_ptr<Converter> make_dielectric_converter(const WorkflowStages& stages, InstructionSet set);
 
 }  // namespace remap

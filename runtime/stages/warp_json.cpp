@@ -3,11 +3,10 @@
 // are written as their bits.
 #include "stages/warp_json.hpp"
 
-#include "converter/converter_fields.hpp"
+#include "converter/converter_data.hpp"
 #include "core/base64.hpp"
 #include "core/json_field.hpp"
 #include "core/number_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "remap/warp.hpp"
 #include "remap/workflow.hpp"
-#include "stages/workflow_stages.hpp"
+#include "stages/stage.hpp"
 
 namespace remap {
 namespace {
@@ -48,8 +48,8 @@ class WarpStage final : public Stage {
   static void flag_outside(std::size_t size, const std::array<const float*, kWarpParameters>& rows,
                            std::uint8_t* outside) {
     for (std::size_t i = 0; i < size; ++i)
-      outside[i] = !std::all_of(rows.begin(), rows.end(),
-                                [i](const float* row) { return row[i] >= 0.0f && row[i] <= 1.0f; });
+      outside[i] =
+          !std::ranges::all_of(rows, [i](const float* row) { return row[i] >= 0.0f && row[i] <= 1.0f; });
   }
 
   PackedWarp warp_;

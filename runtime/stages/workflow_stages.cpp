@@ -1,11 +1,10 @@
-#include "stages/workflow_stages.hpp"
-
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
 
 #include "remap/workflow.hpp"
+#include "stages/stage.hpp"
 #include "stages/workflow_conventions.hpp"
 
 namespace remap {

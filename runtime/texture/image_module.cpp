@@ -1,8 +1,8 @@
 // This file loads the module of images, the only part that links OpenImageIO.
 #include <dlfcn.h>
 
+#include "core/errors.hpp"
 #include "core/system.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "texture/image_library.hpp"
 
@@ -18,9 +18,7 @@ fs::path module_file() { return (program_file().parent_path() / REMAP_IMAGE_MODU
 
 const ImageLibrary& load_image_library() {
   const fs::path file = module_file();
-  const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::kInput, file.string() + ": " + what);
-  };
+  const auto fail = [&](const std::string& what) { throw input_error(file.string() + ": " + what); };
   if (std::error_code ignored; !fs::exists(file, ignored))
     fail("file not found, but the programs need this file for images (install them by cmake --install)");
   // The module is never unloaded, because the program may keep objects of the module until the end.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "core/nearest_name.hpp"
+#include "core/contains.hpp"
+#include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -57,8 +57,8 @@ LayoutContent content_of(const std::string& option, const std::string& file, con
   }
   const auto number = parse_number(word);
   if (number && *number >= 0.0 && *number <= 1.0) return static_cast<float>(*number);
-  throw Error(ErrorKind::kUsage, option + ": " + file + ": unknown content '" + word + "' (choose " +
-                                     joined(known, ", ") + ", or a number from 0 to 1)");
+  throw usage_error(option + ": " + file + ": unknown content '" + word + "' (choose " + joined(known, ", ") +
+                    ", or a number from 0 to 1)");
 }
 
 std::string trimmed(std::string_view text) {
@@ -77,17 +77,17 @@ LayoutFile file_from(const std::string& option, const std::string& text) {
   LayoutFile file;
   file.name = trimmed(std::string_view(text).substr(0, sign));
   if (sign == std::string::npos || file.name.empty() || file.name.find('/') != std::string::npos)
-    throw Error(ErrorKind::kUsage, option + ": '" + text +
-                                       "' does not describe a file (write NAME=CONTENT,..., such as orm="
-                                       "occlusion,roughness,metallic)");
+    throw usage_error(
+        option + ": '" + text +
+        "' does not describe a file (write NAME=CONTENT,..., such as orm=occlusion,roughness,metallic)");
   std::size_t channels = 0;
   for (const std::string& word : parts_between(std::string_view(text).substr(sign + 1), ',')) {
     file.content.push_back(content_of(option, file.name, trimmed(word)));
     channels += channels_of(file.content.back());
   }
   if (channels != 1 && channels != 3 && channels != 4)
-    throw Error(ErrorKind::kUsage, option + ": " + file.name + " has " + std::to_string(channels) +
-                                       " channels (use 1, 3 or 4; a color counts as three)");
+    throw usage_error(option + ": " + file.name + " has " + std::to_string(channels) +
+                      " channels (use 1, 3 or 4; a color counts as three)");
   return file;
 }
 
@@ -102,7 +102,7 @@ Layout layout_in(const std::string& option, const std::string& name, std::string
     for (const LayoutContent& content : file.content)
       if (const auto* own = std::get_if<LayoutParameter>(&content); own != nullptr && own->width) {
         if (const auto other = layout.width(); other != own->width)
-          throw Error(ErrorKind::kUsage, option + ": holds both roughness and glossiness (choose one)");
+          throw usage_error(option + ": holds both roughness and glossiness (choose one)");
       }
   return layout;
 }
@@ -154,7 +154,7 @@ const NamedLayout* engine_layout(std::string_view name) {
 const NamedLayout* engine_layout_of(std::string_view word) {
   const auto found = std::ranges::find_if(kLayouts, [word](const NamedLayout& layout) {
     const std::vector<std::string> words = parts_between(layout.words, ' ');
-    return !word.empty() && std::ranges::find(words, word) != words.end();
+    return !word.empty() && contains(words, word);
   });
   return found == kLayouts.end() ? nullptr : &*found;
 }
@@ -166,9 +166,8 @@ Layout layout_from(const std::string& option, const std::string& text) {
     if (layout.name == text) return layout_in(option, text, layout.files);
     known.emplace_back(layout.name);
   }
-  throw Error(ErrorKind::kUsage,
-              option + ": unknown layout '" + text + "'" + suggestion(text, known) +
-                  (nearest_name(text, known).empty() ? ", or write FILE=CONTENT,..." : ""));
+  throw usage_error(option + ": unknown layout '" + text + "'" + suggestion(text, known) +
+                    (nearest_name(text, known).empty() ? ", or write FILE=CONTENT,..." : ""));
 }
 
 }  // namespace remap

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/files.hpp"
-#include "remap/error.hpp"
 #include "texture/image_reader.hpp"
 
 namespace remap {
@@ -37,9 +37,8 @@ std::size_t green_channel(const ImageReader& image) {
   const auto named = std::ranges::find(channels, "G", &Channel::name);
   if (named != channels.end()) return static_cast<std::size_t>(named - channels.begin());
   if (channels.size() < 3)
-    throw Error(
-        ErrorKind::kInput,
-        image.path().string() + ": has no green channel to invert (give a normal map with three channels)");
+    throw input_error(image.path().string() +
+                      ": has no green channel to invert (give a normal map with three channels)");
   return 1;
 }
 

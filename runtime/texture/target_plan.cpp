@@ -5,11 +5,10 @@
 #include <optional>
 #include <system_error>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -25,9 +24,8 @@ namespace {
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
-  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
-    throw Error(ErrorKind::kUsage,
-                "--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
+  if (!contains(kExtensions, extension))
+    throw usage_error("--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
 fs::path result_path(fs::path name, const TargetChoice& choice) {
@@ -37,31 +35,30 @@ fs::path result_path(fs::path name, const TargetChoice& choice) {
 
 void require_safe(const fs::path& output, const fs::path& input) {
   if (same_file(output, input))
-    throw Error(ErrorKind::kUsage, output.string() + ": would overwrite the input " + input.string() +
-                                       " (choose another folder)");
+    throw usage_error(output.string() + ": would overwrite the input " + input.string() +
+                      " (choose another folder)");
 }
 
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
-      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder (choose another folder)");
+      throw output_error(folder.string() + ": is a file, not a folder (choose another folder)");
   std::vector<fs::path> results;
   for (const PlannedFile& map : plan.maps) results.push_back(map.path);
   for (const PlannedFile& copy : plan.copies) results.push_back(copy.path);
   for (std::size_t i = 0; i < results.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       if (results[i] == results[k])
-        throw Error(ErrorKind::kUsage,
-                    results[i].string() + ": two results have this name (rename an input" +
-                        (choice.diagnosis_folder.empty() ? ")" : ", or give --diagnose another folder)"));
+        throw usage_error(results[i].string() + ": two results have this name (rename an input" +
+                          (choice.diagnosis_folder.empty() ? ")" : ", or give --diagnose another folder)"));
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedFile& copy : plan.copies) require_safe(results[i], copy.source);
   }
 }
 
 bool is_wanted(const TargetChoice& choice, Parameter parameter) {
-  return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
+  return contains(choice.parameters, parameter);
 }
 
 // Returns what a channel of a result holds if the result is made from `place`, a channel of an input map.
@@ -69,15 +66,14 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
   std::optional<TargetChannel> content;
   std::optional<Parameter> held;
   for (const auto& [parameter, values] : set.parameters) {
-    const auto found = std::find(values.channels.begin(), values.channels.end(), place);
+    const auto found = std::ranges::find(values.channels, place);
     if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
     if (held)
-      throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         plain(reader.layout().channels[place.channel].name) +
-                                         " is used as both " + plain_name(*held) + " and " +
-                                         plain_name(parameter) +
-                                         " (choose another channel for one of them, such as orm.png:G)");
+      throw usage_error(reader.path().string() + ": channel " +
+                        plain(reader.layout().channels[place.channel].name) + " is used as both " +
+                        plain_name(*held) + " and " + plain_name(parameter) +
+                        " (choose another channel for one of them, such as orm.png:G)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};
@@ -235,21 +231,19 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
   std::vector<std::size_t> parts;
   for (std::size_t map = 0; map < set.maps.size(); ++map)
     if (map == first || same_file(set.maps[map].path(), set.maps[first].path())) parts.push_back(map);
-  std::sort(parts.begin(), parts.end(),
-            [&](std::size_t a, std::size_t b) { return set.maps[a].part() < set.maps[b].part(); });
+  std::ranges::sort(parts,
+                    [&](std::size_t a, std::size_t b) { return set.maps[a].part() < set.maps[b].part(); });
   return parts;
 }
 
 // Adds a copy, unless the plan already writes or copies a file of this name.
 void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan, bool turns_green = false) {
   const auto is_there = [&](const auto& result) { return result.path == path; };
-  if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
-      std::any_of(plan.copies.begin(), plan.copies.end(), is_there))
-    return;
+  if (std::ranges::any_of(plan.maps, is_there) || std::ranges::any_of(plan.copies, is_there)) return;
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
-    throw Error(ErrorKind::kInput,
-                source.string() + ": cannot be copied, because it is not a readable file (check the path)");
+    throw input_error(source.string() +
+                      ": cannot be copied, because it is not a readable file (check the path)");
   plan.copies.push_back({path, {}, source, turns_green});
 }
 
@@ -261,7 +255,7 @@ bool holds_floats(const TargetChoice& choice) {
 }
 
 PlannedFile own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
-  const bool is_wide = std::ranges::find(choice.wide, parameter) != choice.wide.end();
+  const bool is_wide = contains(choice.wide, parameter);
   if (is_wide && !holds_floats(choice)) {
     TargetChoice floats = choice;
     floats.extension = "exr";
@@ -292,7 +286,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
       TargetPart part{map, changes_of(choice), {}};
       for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
         part.channels.push_back(content_of(set, {map, c}, choice));
-      const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
+      const bool is_changed = std::ranges::any_of(part.channels, is_converted);
       if (!is_changed) part.changes.type = std::nullopt;  // an unchanged part keeps its pixel type
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
@@ -304,20 +298,19 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   for (const Parameter parameter : choice.parameters) {
     if (set.map_of(parameter) != nullptr) continue;
     if (set.parameters.count(parameter) == 0 && !is_input(parameter))
-      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input contains " +
-                                         std::string(parameter_name(parameter)) + " (use --layout separate)");
+      throw usage_error("--layout as-inputs: no input contains " + std::string(parameter_name(parameter)) +
+                        " (use --layout separate)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
   for (const Carried<SetParameter>& carried : set.carried) {
     if (!carried.parameter.is_map())
-      throw Error(ErrorKind::kUsage,
-                  "--" + carried.name +
-                      ": --layout as-inputs cannot store a number (give a map, or use another layout)");
+      throw usage_error("--" + carried.name +
+                        ": --layout as-inputs cannot store a number (give a map, or use another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
     const auto is_written = [&](const PlannedFile& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);
     };
-    if (std::none_of(plan.maps.begin(), plan.maps.end(), is_written))
+    if (std::ranges::none_of(plan.maps, is_written))
       add_copy(source, choice.folder / source.filename(), plan);
   }
   return plan;
@@ -338,14 +331,13 @@ void require_held(const TargetChoice& choice) {
   };
   const std::string start = "--layout " + choice.layout.name + ": cannot hold ";
   if (lacks(Parameter::kSpecular, Parameter::kMetallic))
-    throw Error(ErrorKind::kUsage, start + "metallic (use --layout separate or --layout orm)");
+    throw usage_error(start + "metallic (use --layout separate or --layout orm)");
   if (lacks(Parameter::kMetallic, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage,
-                start + "diffuse and specular (use --layout separate or --layout specgloss)");
+    throw usage_error(start + "diffuse and specular (use --layout separate or --layout specgloss)");
   for (const Parameter parameter : {Parameter::kRoughness, Parameter::kSpecular})
     if (choice.layout.file_with(parameter) != nullptr && !is_wanted(choice, parameter))
-      throw Error(ErrorKind::kUsage, "--only cannot be used with --layout " + choice.layout.name +
-                                         ", which would have an empty channel (remove one of the two)");
+      throw usage_error("--only cannot be used with --layout " + choice.layout.name +
+                        ", which would have an empty channel (remove one of the two)");
 }
 
 PlannedFile layout_map(const LayoutFile& file, const TextureSet& set, const TargetChoice& choice) {
@@ -394,8 +386,7 @@ std::optional<ChannelPlace> repeated_place(const TextureSet& set, const TargetCh
                                            const TargetChoice& choice) {
   if (const auto* place = std::get_if<ChannelPlace>(&channel)) return *place;
   const auto* made = std::get_if<ConvertedChannel>(&channel);
-  if (made == nullptr || std::ranges::find(choice.unchanged, made->parameter) == choice.unchanged.end())
-    return std::nullopt;
+  if (made == nullptr || !contains(choice.unchanged, made->parameter)) return std::nullopt;
   const SetParameter* own = set.map_of(made->parameter);
   if (own == nullptr || made->index >= own->channels.size() || !own->factors.empty() ||
       choice.color_transfers.contains(made->parameter))
@@ -432,10 +423,9 @@ void require_target_scale(const TextureSet& set, const TargetPlan& plan) {
         if (const auto* made = std::get_if<ConvertedChannel>(&channel);
             made != nullptr && made->parameter == Parameter::kRoughness)
           throw usage_error(map.path.string() +
-                            ": would contain integers, but its roughness is an exponent "
-                            "(use --format exr; or --output-encoding exponent=1000 if white means an "
-                            "exponent of 1000, as in MTL files; "
-                            "OpenGL has 128)");
+                            ": would contain integers, but its roughness is an exponent (use --format exr; "
+                            "or --output-encoding exponent=1000 if white means an exponent of 1000, as in "
+                            "MTL files; OpenGL has 128)");
     }
 }
 

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <span>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -20,12 +19,6 @@ std::vector<std::string> channel_names(const ImageLayout& layout) {
   std::vector<std::string> names;
   for (const Channel& channel : layout.channels) names.push_back(plain(channel.name));
   return names;
-}
-
-std::string listed(std::span<const std::string> names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // If an image that cannot be read in bands is at least this large, remarks() mentions it.
@@ -44,22 +37,22 @@ std::optional<std::vector<float>> numbers(std::string_view text) {
 
 void require_usable(std::string_view option, std::string_view text, const std::vector<float>& values,
                     const std::string& expected) {
-  const bool usable = std::all_of(values.begin(), values.end(),
-                                  [](float value) { return std::isfinite(value) && value >= 0.0f; });
+  const bool usable =
+      std::ranges::all_of(values, [](float value) { return std::isfinite(value) && value >= 0.0f; });
   if (usable && (values.size() == 1 || values.size() == 3)) return;
-  throw Error(ErrorKind::kUsage,
-              std::string(option) + ": invalid value '" + std::string(text) + "' (give " + expected + ")");
+  throw usage_error(std::string(option) + ": invalid value '" + std::string(text) + "' (give " + expected +
+                    ")");
 }
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+  return std::ranges::equal(a, b, [](char x, char y) {
     return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
   });
 }
 
 std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_view name) {
-  const auto found = std::find_if(layout.channels.begin(), layout.channels.end(),
-                                  [&](const Channel& channel) { return same_word(channel.name, name); });
+  const auto found = std::ranges::find_if(
+      layout.channels, [&](const Channel& channel) { return same_word(channel.name, name); });
   if (found == layout.channels.end()) return std::nullopt;
   return static_cast<std::size_t>(found - layout.channels.begin());
 }
@@ -152,9 +145,9 @@ std::string window_text(const ImageLayout& layout) {
 void require_same_texels(const ImageReader& first, const ImageReader& other) {
   const ImageLayout &a = first.layout(), &b = other.layout();
   if (a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y) return;
-  throw Error(ErrorKind::kInput, other.path().string() + ": size " + window_text(b) + " does not match " +
-                                     first.path().string() + " (" + window_text(a) +
-                                     ") (use --resample, or scale one of the images)");
+  throw input_error(other.path().string() + ": size " + window_text(b) + " does not match " +
+                    first.path().string() + " (" + window_text(a) +
+                    ") (use --resample, or scale one of the images)");
 }
 
 // Returns the parameters that are maps.
@@ -217,11 +210,10 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   const std::vector<std::string> known = channel_names(reader.layout());
   for (const std::string& asked : name.channels)
     if (!find_channel(reader, asked))
-      throw Error(ErrorKind::kUsage,
-                  name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
-  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + ", but needs " +
-                                     expected + " (choose a channel, such as " + name.file.string() + ":" +
-                                     plain(known.front()) + ")");
+      throw usage_error(name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
+  throw input_error(name.file.string() + ": has the channels " + joined(known, ", ") + ", but needs " +
+                    expected + " (choose a channel, such as " + name.file.string() + ":" +
+                    plain(known.front()) + ")");
 }
 
 // Finds the named channels, or the color channels, in a file. Only one part of the file may have them.
@@ -242,9 +234,8 @@ std::vector<ChannelPlace> find_channels(const MapName& name, std::optional<Param
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
-  throw Error(ErrorKind::kUsage, name.file.string() + ": several parts of the file (" + listed(part_names) +
-                                     ") have such channels (choose a part: FILE:PART.CHANNEL or "
-                                     "FILE:PART.R,PART.G,PART.B)");
+  throw usage_error(name.file.string() + ": several parts of the file (" + joined(part_names, ", ") +
+                    ") have such channels (choose a part: FILE:PART.CHANNEL or FILE:PART.R,PART.G,PART.B)");
 }
 
 // The color space that the user gives overrides the tag of the file. Tags count only for integers.
@@ -279,9 +270,9 @@ SetParameter open_parameter(const ParameterRequest& request, std::optional<Param
 
 void require_factors(std::string_view option, const SetParameter& parameter) {
   if (parameter.factors.size() > 1 && parameter.factors.size() != parameter.channel_count())
-    throw Error(ErrorKind::kUsage, std::string(option) + ": has " + std::to_string(parameter.factors.size()) +
-                                       " values (give one, or one for each of the " +
-                                       std::to_string(parameter.channel_count()) + " channels)");
+    throw usage_error(std::string(option) + ": has " + std::to_string(parameter.factors.size()) +
+                      " values (give one, or one for each of the " +
+                      std::to_string(parameter.channel_count()) + " channels)");
 }
 
 std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
@@ -301,7 +292,7 @@ std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
 std::string listed_options(const TextureSet& set) {
   std::vector<std::string> options;
   for (const auto& [parameter, values] : set.parameters) options.push_back(parameter_option(parameter));
-  return listed(options);
+  return joined(options, ", ");
 }
 
 }  // namespace
@@ -313,17 +304,17 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
   }
   std::error_code none;
   if (text.ends_with('%') && numbers(text.substr(0, text.size() - 1)) && !fs::exists(fs::path(text), none))
-    throw Error(ErrorKind::kUsage, std::string(option) + ": '" + std::string(text) +
-                                       "' is not a number or a file (write 30 % as 0.3)");
+    throw usage_error(std::string(option) + ": '" + std::string(text) +
+                      "' is not a number or a file (write 30 % as 0.3)");
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0 || text.find('/', colon) != std::string_view::npos ||
       fs::exists(fs::path(text), none))
     return MapName{fs::path(text), {}};
   const std::vector<std::string> channels = parts_between(text.substr(colon + 1), ',');
-  const bool named = std::none_of(channels.begin(), channels.end(), [](auto& name) { return name.empty(); });
+  const bool named = std::ranges::none_of(channels, [](auto& name) { return name.empty(); });
   if (!named || (channels.size() != 1 && channels.size() != 3))
-    throw Error(ErrorKind::kUsage, std::string(option) + ": invalid channels in '" + std::string(text) +
-                                       "' (use FILE:CHANNEL or FILE:R,G,B)");
+    throw usage_error(std::string(option) + ": invalid channels in '" + std::string(text) +
+                      "' (use FILE:CHANNEL or FILE:R,G,B)");
   return MapName{fs::path(text.substr(0, colon)), channels};
 }
 
@@ -335,10 +326,8 @@ std::vector<float> parse_factors(std::string_view option, std::string_view text)
 
 bool TextureSet::holds(const ChannelPlace& place) const {
   const std::vector<const SetParameter*> mapped = mapped_parameters(*this);
-  return std::any_of(mapped.begin(), mapped.end(), [&](const SetParameter* parameter) {
-    return std::find(parameter->channels.begin(), parameter->channels.end(), place) !=
-           parameter->channels.end();
-  });
+  return std::ranges::any_of(
+      mapped, [&](const SetParameter* parameter) { return contains(parameter->channels, place); });
 }
 
 std::set<std::size_t> TextureSet::maps_of_material() const {
@@ -352,8 +341,7 @@ std::set<std::size_t> TextureSet::maps_of_material() const {
 std::size_t TextureSet::first_map() const {
   for (const auto& [parameter, values] : parameters)
     if (values.is_map()) return values.channels.front().map;
-  throw Error(ErrorKind::kUsage,
-              listed_options(*this) + ": all of these are numbers (give at least one map)");
+  throw usage_error(listed_options(*this) + ": all of these are numbers (give at least one map)");
 }
 
 TextureSet open_texture_set(const TextureSetRequest& request) {
@@ -365,7 +353,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
         asked, parameter, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set);
     if (color && opened.is_map()) choose_transfer(set, asked.transfer, opened);
     if (!color && !opened.is_map() && opened.constants.size() != 1)
-      throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values (give one)");
+      throw usage_error(parameter_option(parameter) + ": has three values (give one)");
     require_factors("--factor " + plain_name(parameter), opened);
     set.parameters[parameter] = std::move(opened);
   }
@@ -375,7 +363,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
         open_parameter(carried.parameter, std::nullopt, "one channel, Y, or R, G and B", set);
     if (parameter.is_map()) parameter.channels.resize(1);
     if (parameter.channel_count() != 1)
-      throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values (give one)");
+      throw usage_error("--" + carried.name + ": has three values (give one)");
     set.carried.push_back({carried.name, parameter});
   }
   set.coverage = find_coverage(set);

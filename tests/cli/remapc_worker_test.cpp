@@ -9,7 +9,7 @@
 
 #include "cli/remapc_session.hpp"
 #include "compiler/worker/fake_session.hpp"
-#include "core/owner_tag.hpp"
+#include "core/files.hpp"
 #include "support/test_image.hpp"
 #include "worker/folders.hpp"
 

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "cli/texremap_session.hpp"
+#include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/owner_tag.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
 #include "remap/workflow.hpp"

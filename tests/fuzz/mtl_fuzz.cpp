@@ -3,7 +3,7 @@
 // MTL file.
 #include <optional>
 
-#include "assets/document/text_encoding.hpp"
+#include "assets/document/text_edits.hpp"
 #include "assets/mtl/mtl_asset.hpp"
 #include "assets/obj/obj_gltf.hpp"
 #include "core/errors.hpp"

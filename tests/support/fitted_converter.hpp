@@ -7,7 +7,6 @@
 
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
-#include "stages/brdf_stage.hpp"
 #include "stages/stage.hpp"
 
 namespace remap {

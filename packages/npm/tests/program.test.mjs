@@ -67,7 +67,7 @@ test('two commands at once in one folder give what one gives', async () => {
   await requireSameResults(together, alone);
 });
 
-// Computes FNV-1a like runtime/core/owner_tag.cpp.
+// Computes FNV-1a like runtime/core/files.cpp.
 function tagOfMachine() {
   let hash = 0x811c9dc5;
   for (const byte of Buffer.from(`${hostname()}/${readFileSync('/proc/sys/kernel/random/boot_id')}/${readlinkSync('/proc/self/ns/pid')}`)) hash = Math.imul(hash ^ byte, 0x01000193);

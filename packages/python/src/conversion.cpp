@@ -9,7 +9,7 @@
 #include "paths/converter_file.hpp"
 #include "remap/error.hpp"
 #include "remap/warp.hpp"
-#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 
 namespace nb = nanobind;
 

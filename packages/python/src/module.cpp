@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "conversion.hpp"
 #include "core/errors.hpp"
 #include "images.hpp"

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <charconv>
 
+#include "core/contains.hpp"
 #include "core/plain_text.hpp"
 
 namespace remap {
@@ -53,14 +54,11 @@ std::string percent_encoded(std::string_view text) {
 }
 
 std::string uri_of_path(const std::string& path) {
-  std::string uri;
-  for (const std::string& part : parts_between(path, '/'))
-    uri += (uri.empty() ? "" : "/") + percent_encoded(part);
-  return uri;
+  return joined(parts_between(path, '/'), "/", percent_encoded);
 }
 
 std::string stem_beside(const std::string& model, std::string_view prefix, std::string_view suffix) {
-  assert(suffix.empty() || std::ranges::find(kNewImageSuffixes, suffix) != kNewImageSuffixes.end());
+  assert(suffix.empty() || contains(kNewImageSuffixes, suffix));
   const std::size_t slash = model.find_last_of('/'), dot = model.find_last_of('.');
   const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
   const std::size_t end = dot != std::string::npos && dot >= begin ? dot : model.size();

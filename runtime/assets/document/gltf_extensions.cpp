@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/contains.hpp"
 namespace remap {
 namespace {
 
@@ -35,16 +36,14 @@ constexpr std::array<std::string_view, 19> kOthers = {"EXT_lights_image_based",
                                                       "KHR_xmp_json_ld",
                                                       "MSFT_lod"};
 
-bool is_in(std::string_view name, const auto& names) { return std::ranges::find(names, name) != names.end(); }
-
 }  // namespace
 
-bool is_reflecting(std::string_view extension) { return is_in(extension, kReflecting); }
+bool is_reflecting(std::string_view extension) { return contains(kReflecting, extension); }
 
-bool is_of_image_format(std::string_view extension) { return is_in(extension, kOfImageFormats); }
+bool is_of_image_format(std::string_view extension) { return contains(kOfImageFormats, extension); }
 
 bool is_known_extension(std::string_view extension) {
-  return is_in(extension, kOthers) || is_reflecting(extension) || is_of_image_format(extension);
+  return contains(kOthers, extension) || is_reflecting(extension) || is_of_image_format(extension);
 }
 
 }  // namespace remap

@@ -1,5 +1,7 @@
 // This file finds the statements and materials of a Wavefront MTL file, as places in its text. An editor can
-// then replace some bytes without moving others. Unknown lines stay unchanged.
+// then replace some bytes without moving others. Unknown lines stay unchanged. The file also detects the
+// program that wrote an MTL file, because some programs give statements another meaning than the
+// specification.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "core/json_spans.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 
@@ -64,5 +67,28 @@ class MtlDocument {
 
 // Converts ASCII letters to lower case.
 std::string in_lower_case(std::string_view text);
+
+enum class MtlMaker {
+  kText,       // unknown; statements mean what the specification says (Alias|Wavefront 1995)
+  kBlender,    // Blender 3.4 and later: Ns is 1000 (1 - roughness)^2
+  kBlender28,  // Blender 2.8 to 3.3: Ns is 900 (1 - roughness)^2
+  kNvdiffrec,  // `bsdf pbr`: map_Ks holds roughness in green and metallic in blue (Munkberg et al. 2022)
+};
+inline constexpr NamedValues<MtlMaker, 4> kMtlMakers = {{{MtlMaker::kText, "mtl"},
+                                                         {MtlMaker::kBlender, "blender"},
+                                                         {MtlMaker::kBlender28, "blender-2.8"},
+                                                         {MtlMaker::kNvdiffrec, "nvdiffrec"}}};
+
+// Returns the maker that the first comments name, or whose special statements occur. Otherwise, returns
+// kText. Also returns kText for Blender 2.7, which wrote the exponents of its Blinn and Phong shaders, as the
+// specification describes them.
+MtlMaker maker_of(const MtlDocument& document);
+
+// Returns a warning that the file is read as this maker writes it: `was written by Blender: ...`. Returns
+// nothing for kText.
+std::string maker_warning(MtlMaker maker);
+
+// Returns the Ns that Blender writes for roughness 0.
+double blender_scale(MtlMaker maker);
 
 }  // namespace remap

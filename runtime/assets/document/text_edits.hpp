@@ -1,14 +1,17 @@
 // This file edits texts. Some bytes are replaced, and no others move. In a JSON text it replaces values, and
-// appends or removes members and entries with their comma.
+// appends or removes members and entries with their comma. Texts are read and edited as UTF-8, also files in
+// UTF-16, as Windows tools write them.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "assets/document/asset.hpp"
 #include "core/json_spans.hpp"
 
 namespace remap {
@@ -69,5 +72,38 @@ class TextEdits {
   std::map<std::size_t, std::string> replaced_;  // keyed by the index of the value
   std::map<std::size_t, Changes> changed_;       // keyed by the index of the list or object
 };
+
+enum class TextEncoding { kBytes, kUtf16Little, kUtf16Big };
+
+// Detects the encoding by the byte order mark, or by the zeros of the first letters.
+TextEncoding encoding_of(const ByteSource& source);
+
+class TextReader {
+ public:
+  // Both arguments must outlive this object.
+  TextReader(const ByteSource& source, const std::string& context)
+      : source_(source), context_(context), encoding_(encoding_of(source)) {}
+
+  // Returns the next block as UTF-8, including a byte order mark. Returns an empty text at the end. Throws
+  // kInput, beginning with `context`, for UTF-16 with an incomplete character.
+  std::string next();
+
+ private:
+  void add_unit(std::uint32_t unit, std::uint64_t begin, std::string& text);
+  [[noreturn]] void refuse(std::uint64_t begin) const;
+
+  const ByteSource& source_;
+  const std::string& context_;
+  TextEncoding encoding_;
+  std::uint64_t at_ = 0;
+  std::uint32_t first_half_ = 0;  // surrogate at the end of the last block, or 0
+};
+
+// Returns the whole text. Throws like TextReader::next().
+std::string utf8_text(const ByteSource& source, const std::string& context);
+
+// Encodes a text so that utf8_text() of the bytes returns it again. Throws kInput, beginning with `context`,
+// if UTF-16 is requested for a text that is not UTF-8.
+std::string encoded(const std::string& text, TextEncoding encoding, const std::string& context);
 
 }  // namespace remap

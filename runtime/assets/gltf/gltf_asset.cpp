@@ -12,18 +12,16 @@
 
 #include "assets/document/gltf_extensions.hpp"
 #include "assets/document/text_edits.hpp"
-#include "assets/gltf/gltf_bytes.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_direction.hpp"
 #include "assets/gltf/gltf_images.hpp"
 #include "assets/gltf/gltf_material_writer.hpp"
 #include "assets/gltf/gltf_new_images.hpp"
-#include "assets/gltf/gltf_spares.hpp"
 #include "assets/gltf/material_textures.hpp"
 #include "core/errors.hpp"
 #include "core/json_spans.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 
 namespace remap {
 namespace {

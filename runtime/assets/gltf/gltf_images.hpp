@@ -1,17 +1,45 @@
-// This file finds images of a glTF file by texture and decodes them. gltf_new_images.hpp makes new ones.
+// This file reads the images of a glTF file, from its binary chunk, data URIs or files, and decodes them.
+// gltf_new_images.hpp makes new ones.
 #pragma once
 
 #include <cstddef>
 #include <list>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "assets/document/image_codec.hpp"
-#include "assets/gltf/gltf_bytes.hpp"
+#include "assets/document/asset.hpp"
+#include "assets/gltf/gltf_container.hpp"
 #include "assets/maps/texture_bake.hpp"
 #include "core/json_spans.hpp"
 
 namespace remap {
+
+class GltfBytes {
+ public:
+  // All arguments except `open` must outlive this object.
+  GltfBytes(const SpannedJson& json, const GltfContainer& container, const ByteSource& source,
+            OpenAssetFile open);
+
+  // Returns the bytes of an image, as its file has them. Throws kInput if there is no image with this index,
+  // or if its bytes cannot be read.
+  std::string of_image(std::size_t index) const;
+
+ private:
+  std::string of_uri(const std::string& uri) const;
+  std::string of_view(std::size_t index) const;
+
+  const GltfContainer& container_;
+  const ByteSource& source_;
+  OpenAssetFile open_;
+  std::vector<SpanValue> images_, views_, buffers_;
+};
+
+// Returns an entry of a list of the file. `name` is for messages. Throws kInput for an index beyond the list.
+SpanValue gltf_entry(const std::vector<SpanValue>& list, std::size_t index, const char* name);
+
+// Returns the bytes of a data URI (RFC 2397), whose type may have parameters. Throws kInput.
+std::string data_of_uri(std::string_view uri);
 
 // An AssetImage is a decoded image with its origin.
 struct AssetImage {

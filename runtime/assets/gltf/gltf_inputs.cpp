@@ -116,11 +116,7 @@ bool has_textures(const GltfMaterial& material, std::span<const GltfInput> input
                              [&](GltfInput input) { return static_cast<bool>(material[input].texture); });
 }
 
-std::string list_text(const std::vector<std::string>& entries) {
-  std::string text;
-  for (const std::string& entry : entries) text += (text.empty() ? "" : ",") + entry;
-  return "[" + text + "]";
-}
+std::string list_text(const std::vector<std::string>& entries) { return "[" + joined(entries, ",") + "]"; }
 
 MaterialFactor reported(std::string name, const std::vector<float>& values) {
   MaterialFactor factor{std::move(name), {}};

@@ -5,6 +5,7 @@
 
 #include "assets/document/gltf_extensions.hpp"
 #include "assets/gltf/gltf_inputs.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
 
@@ -83,7 +84,7 @@ void GltfMaterialWriter::write_extensions(const MaterialEdit& edit) {
         lost_.emplace(name);
       }
   for (const ExtensionText& extension : edit.added_extensions)
-    if (std::ranges::find(added_, extension.name) == added_.end()) added_.emplace_back(extension.name);
+    if (!contains(added_, extension.name)) added_.emplace_back(extension.name);
   if (edit.added_extensions.empty() && !gone.empty() && gone.size() == extensions.size())
     return edits_.remove_members(edit.material, "extensions");
   for (const SpanValue& member : gone) edits_.remove(member);
@@ -99,7 +100,7 @@ void GltfMaterialWriter::write_extensions(const MaterialEdit& edit) {
 }
 
 bool GltfMaterialWriter::is_still_used(std::string_view extension) const {
-  if (std::ranges::find(added_, extension) != added_.end()) return true;
+  if (contains(added_, extension)) return true;
   for (std::size_t i = 1; i < json_.value_count(); ++i) {
     const SpanValue value = json_.value(i);
     if (value.has_key(extension) && !removed_.contains(i) && value.parent().has_key("extensions"))

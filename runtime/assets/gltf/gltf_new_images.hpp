@@ -1,6 +1,7 @@
 // This file adds new images and textures to a glTF file. A new image is stored like the image that it is made
 // from: in the binary chunk, in a URI, or in a file. New entries are appended, or replace entries that are no
 // longer used. No index changes, and no other bytes move.
+// The file also finds what only converted materials used, and the end of the bytes that are still in use.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +14,24 @@
 #include <utility>
 #include <vector>
 
+#include "assets/document/asset.hpp"
 #include "assets/document/asset_uri.hpp"
-#include "assets/document/image_codec.hpp"
 #include "assets/document/text_edits.hpp"
 #include "assets/gltf/gltf_container.hpp"
 #include "assets/gltf/gltf_direction.hpp"
-#include "assets/gltf/gltf_spares.hpp"
 #include "core/json_spans.hpp"
 
 namespace remap {
+
+struct GltfSpares {
+  std::vector<std::size_t> textures, images, views;  // sorted indices; the views are in the binary chunk
+  std::optional<std::uint64_t> chunk_end;            // end of the used bytes; if unset, nothing is cut off
+};
+
+// Finds the textures, images and views that nothing uses after the edits. If the file uses extensions that
+// are unknown, or that name images themselves, it finds nothing and adds a warning.
+GltfSpares find_spares(const SpannedJson& json, const GltfContainer& container,
+                       const std::vector<MaterialEdit>& edits, std::vector<std::string>& warnings);
 
 class GltfNewImages {
  public:
@@ -72,8 +82,6 @@ class GltfNewImages {
   void empty_spares(TextEdits& edits);
   void set_location(SpanValue image, const Location& location, TextEdits& edits);
   Location cheapest_location() const;
-  std::size_t image_place(std::size_t number) const { return image_places_[number]; }
-
   SpanValue root_;
   const GltfContainer& container_;
   const AssetResources& resources_;

@@ -76,8 +76,7 @@ class CoreToSpecGloss final : public GltfDirection {
       edit.removed_extensions = {kSpecularExtension, kIorExtension};
       report.warnings.emplace_back(
           "viewers without spec-gloss show this material with an index of refraction of 1.5, because glTF "
-          "does not allow KHR_materials_specular "
-          "and KHR_materials_ior together with spec-gloss");
+          "does not allow KHR_materials_specular and KHR_materials_ior together with spec-gloss");
     }
     if (read.number(GltfInput::kMetallic) > 0.0)
       edit.vertex_color_warning = "tinted its reflection and now tint only its diffuse color";

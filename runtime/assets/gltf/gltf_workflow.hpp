@@ -10,7 +10,6 @@
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/gltf/material_textures.hpp"
 #include "assets/maps/gltf_maps.hpp"
-#include "assets/maps/workflow_values.hpp"
 
 namespace remap {
 

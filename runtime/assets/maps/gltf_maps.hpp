@@ -1,15 +1,41 @@
-// This file makes maps of glTF materials from maps of another workflow.
+// This file makes maps and factors of glTF materials from those of another workflow.
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
+#include <vector>
 
-#include "assets/document/image_codec.hpp"
-#include "assets/maps/workflow_values.hpp"
+#include "assets/document/asset.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/converter.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
+
+using MaterialValues = std::map<Parameter, std::vector<float>>;  // one value, or red, green and blue
+
+// Converts all sources of the converter to all its targets, in the same way as texels of maps.
+MaterialValues converted(const Converter& converter, const MaterialValues& material);
+
+// Makes a converter between workflow models (`gltf`, `gltf-specgloss`), with roughness at both ends. With
+// `has_dielectric` the source reads the F0 of its dielectrics as kSpecular.
+std::unique_ptr<Converter> asset_converter(const char* source, const char* target, double prior,
+                                           InstructionSet set, bool has_dielectric = false);
+
+// A MetalRoughFactors has linear values, 0 to 1.
+struct MetalRoughFactors {
+  std::array<double, 3> base_color = {1.0, 1.0, 1.0};
+  double metallic = 1.0;
+  double roughness = 1.0;
+};
+
+// Returns 1 - glossiness, rounded once.
+float roughness_of(double glossiness);
+
+// Returns ((ior - 1) / (ior + 1))^2. An ior of 0 means a very large index, so it gives 1 (KHR_materials_ior).
+double f0_of_index(double ior);
 
 // A MapSources holds the maps of a conversion, all of one size. At least one is given.
 struct MapSources {

@@ -6,7 +6,7 @@
 #include <span>
 #include <type_traits>
 
-#include "assets/document/image_codec.hpp"
+#include "assets/document/asset.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/pixels.hpp"
 

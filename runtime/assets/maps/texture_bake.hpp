@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "assets/document/image_codec.hpp"
+#include "assets/document/asset.hpp"
 
 namespace remap {
 

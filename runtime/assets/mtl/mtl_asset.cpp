@@ -12,14 +12,13 @@
 #include "assets/document/asset_uri.hpp"
 #include "assets/document/mtl_document.hpp"
 #include "assets/document/text_edits.hpp"
-#include "assets/document/text_encoding.hpp"
 #include "assets/gltf/gltf_inputs.hpp"
 #include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
-#include "assets/mtl/mtl_images.hpp"
+#include "assets/mtl/mtl_libraries.hpp"
 #include "assets/mtl/mtl_material.hpp"
-#include "core/errors.hpp"
 #include "core/number_text.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -319,18 +318,6 @@ class MtlEditor {
 };
 
 }  // namespace
-
-bool is_mtl_map(const std::string& word) {
-  constexpr std::array<std::string_view, 5> kOthers = {"bump", "disp", "decal", "refl", "norm"};
-  return word.starts_with("map_") || std::ranges::find(kOthers, word) != kOthers.end();
-}
-
-std::string mtl_text(const ByteSource& source, const std::string& context) {
-  if (source.size() > kLongestMtl)
-    throw input_error(context + ": has " + std::to_string(source.size()) + " bytes, but at most " +
-                      std::to_string(kLongestMtl) + " can be read (split it into several files)");
-  return utf8_text(source, context);
-}
 
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources) {

@@ -20,11 +20,4 @@ AssetConversion convert_mtl(const ByteSource& source, const std::string& context
 std::vector<AssetResource> mtl_resources(const ByteSource& source, const std::string& context,
                                          const AssetResources* resources = nullptr);
 
-// Returns the text of an MTL file as UTF-8. Throws kInput, beginning with `context`, if it is too long, and
-// for UTF-16 with an incomplete character.
-std::string mtl_text(const ByteSource& source, const std::string& context);
-
-// Returns true if a word names an image: map_Kd, bump, norm and the like, in lower case.
-bool is_mtl_map(const std::string& word);
-
 }  // namespace remap

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
@@ -41,7 +42,7 @@ class MapReader {
       : document_(document), words_(document.words(document.statements()[statement])) {
     constexpr std::array<std::string_view, 4> kColors = {"map_ka", "map_kd", "map_ke", "map_ks"};
     const std::string word = document.word(document.statements()[statement]);
-    map_.is_color = std::ranges::find(kColors, word) != kColors.end();
+    map_.is_color = contains(kColors, word);
     map_.statement = statement;
     const std::size_t end = document.statements()[statement].arguments.end;
     map_.name = {end, end};
@@ -256,7 +257,7 @@ std::optional<double> mtl_number(std::string_view text) {
 bool has_metal_rough_lines(const MtlDocument& document, const MtlBlock& block) {
   constexpr std::array<std::string_view, 4> kWords = {"pr", "pm", "map_pr", "map_pm"};
   for (std::size_t i = block.first; i < block.last; ++i)
-    if (std::ranges::find(kWords, document.word(document.statements()[i])) != kWords.end()) return true;
+    if (contains(kWords, document.word(document.statements()[i]))) return true;
   return false;
 }
 

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "assets/document/mtl_document.hpp"
-#include "assets/document/mtl_maker.hpp"
-#include "assets/maps/legacy_material.hpp"
+#include "assets/maps/legacy_maps.hpp"
 
 namespace remap {
 

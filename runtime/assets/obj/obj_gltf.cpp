@@ -10,11 +10,11 @@
 
 #include "assets/document/asset_uri.hpp"
 #include "assets/gltf/gltf_container.hpp"
-#include "assets/obj/obj_buffer.hpp"
 #include "assets/obj/obj_materials.hpp"
 #include "assets/obj/obj_mesh.hpp"
+#include "assets/obj/obj_textures.hpp"
 #include "core/errors.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "remap/version.hpp"
 
 namespace remap {

@@ -9,7 +9,7 @@
 namespace remap {
 
 // Converts meshes by tinyobjloader (obj_mesh.hpp), with a node for each group or object. Converts materials
-// by legacy_material.hpp; Pr and Pm stay unchanged. `buffer_file` is written beside a .gltf;
+// by legacy_maps.hpp; Pr and Pm stay unchanged. `buffer_file` is written beside a .gltf;
 // without it, the result is one .glb. A .glb embeds PNG and JPEG files. For a .gltf they are listed in
 // `resources`, to be copied. Other images become PNG. A material whose map is missing has the state kFailed
 // and lacks that map. `pieces` hold the whole file, even after failures; `text` is its JSON. Throws kInput,

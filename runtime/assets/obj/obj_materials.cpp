@@ -30,9 +30,7 @@ Json numbers_of(const std::array<double, 3>& values) {
 }
 
 std::string numbers_text(const std::array<double, 3>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + number_text(float_value(value));
-  return text;
+  return joined(values, " ", [](double value) { return number_text(float_value(value)); });
 }
 
 Json specular_of(double specular, const std::array<double, 3>& color) {

@@ -15,10 +15,11 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-#include "assets/document/text_encoding.hpp"
+#include "assets/document/text_edits.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -143,7 +144,7 @@ class ObjStream final : public std::streambuf {
     if (word == "f" || word == "fo") return add_face(rest);
     if (word == "usemtl") return use_material(std::string(rest));
     if (word == "mtllib") scene_.libraries.emplace_back(rest);
-    dropped_ += std::ranges::find(kDropped, word) != kDropped.end();
+    dropped_ += contains(kDropped, word);
   }
 
   // Ends the importer's current shape and begins another one. A cut group continues under the same number.
@@ -345,9 +346,7 @@ class PrimitiveMaker {
     if (!has_normals_) primitive_.normals = std::vector<float>();
   }
 
-  bool lacks_normals() const {
-    return has_normals_ && std::ranges::find(is_lacking_, true) != is_lacking_.end();
-  }
+  bool lacks_normals() const { return has_normals_ && contains(is_lacking_, true); }
   ObjPrimitive result() { return std::move(primitive_); }
 
  private:

@@ -10,18 +10,17 @@
 #include "check/rules.hpp"
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
-#include "command_line/run_app.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/json.hpp"
+#include "core/number_text.hpp"
 #include "core/packed_values.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
 #include "sets/naming.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/named_paths.hpp"
+#include "texremap/plan/asset_formats.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/image_library.hpp"
 
@@ -56,8 +55,7 @@ Reader<std::vector<std::string>> rule_names() {
   std::vector<std::string> known;
   for (const Rule& rule : rules()) known.emplace_back(rule.name);
   return list_of(Reader<std::string>{[known](const std::string& option, const std::string& word) {
-                                       if (std::ranges::find(known, word) == known.end())
-                                         fail_unknown(option, "rule", word, known);
+                                       if (!contains(known, word)) fail_unknown(option, "rule", word, known);
                                        return word;
                                      },
                                      {}});
@@ -80,9 +78,8 @@ MaterialReport look_at(CheckedMaterial material, const CheckOptions& options) {
   report.problems = material.read_maps();
   report.map_count = material.maps.size();
   report.findings = findings_in(material, options.reader);
-  std::erase_if(report.findings, [&](const MaterialFinding& finding) {
-    return std::ranges::find(options.ignored, finding.rule) != options.ignored.end();
-  });
+  std::erase_if(report.findings,
+                [&](const MaterialFinding& finding) { return contains(options.ignored, finding.rule); });
   return report;
 }
 
@@ -112,9 +109,9 @@ void check(const CheckOptions& options) {
     embedded.push_back(std::move(own.embedded));
   }
   if (found.materials.empty() && found.problems.empty())
-    throw usage_error(options.paths.front().string() +
-                      ": no map found by file names, and no glTF or MTL file (use --names "
-                      "FILE for other names)");
+    throw usage_error(
+        options.paths.front().string() +
+        ": no map found by file names, and no glTF or MTL file (use --names FILE for other names)");
   std::vector<MaterialReport> reports(found.materials.size());
   Progress progress("materials", reports.size(), !options.quiet);
   const std::size_t threads =
@@ -160,7 +157,7 @@ void check(const CheckOptions& options) {
   const std::set<std::string> problems(found.problems.begin(), found.problems.end());
   for (const std::string& problem : problems) {
     json["problems"].push_back(problem);
-    print_message(kProgram, "not read: " + problem);
+    say("not read: " + problem);
   }
   json["maps"] = maps;
   if (options.json) std::cout << json.dump(2) << '\n';
@@ -169,11 +166,11 @@ void check(const CheckOptions& options) {
     throw input_error(all + ": " + counted(count, "finding") +
                       (problems.empty() ? "" : ", " + counted(problems.size(), "file") + " not read"));
   if (options.quiet) return;
-  print_message(kProgram, all + ": " +
-                              (count == 0 ? "nothing looks wrong"
-                                          : counted(count, "finding") + ", none of which is " +
-                                                std::string(name_of(kConfidences, options.fails_on)) +
-                                                " (--fail-on possible fails on these, too)"));
+  say(all + ": " +
+      (count == 0 ? "nothing looks wrong"
+                  : counted(count, "finding") + ", none of which is " +
+                        std::string(name_of(kConfidences, options.fails_on)) +
+                        " (--fail-on possible fails on these, too)"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // This file is `texremap convert`, which converts texture sets, assets or numbers.
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/convert_plan.hpp"
-#include "texremap/report/report_page.hpp"
 #include "texremap/report/reporter.hpp"
 #include "texremap/run/run_jobs.hpp"
 

@@ -2,14 +2,12 @@
 // processes can then share one conversion.
 #include <iostream>
 
-#include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/number_text.hpp"
+#include "core/system.hpp"
 #include "texremap/commands/commands.hpp"
-#include "texremap/plan/asset_jobs.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
 #include "texture/content_hash.hpp"
@@ -41,8 +39,8 @@ TreeManifest tree_of_sets(const IndexOptions& options) {
   });
   if (tree.found.sets.empty() && tree.found.problems.empty())
     throw usage_error(options.folder.string() +
-                      ": no texture set found by file names (use --names FILE for other names, or "
-                      "--assets for glTF and MTL files)");
+                      ": no texture set found by file names (use --names FILE for other names, or --assets "
+                      "for glTF and MTL files)");
   return tree;
 }
 
@@ -52,8 +50,7 @@ void index(const IndexOptions& options) {
   TreeManifest tree = options.assets ? tree_of_assets(options.folder, options.format) : tree_of_sets(options);
   const std::size_t unrecognised = tree.found.unrecognised.size();
   if (!options.quiet)
-    for (const WalkProblem& problem : tree.found.problems)
-      print_message(kProgram, "failed: " + problem.message);
+    for (const WalkProblem& problem : tree.found.problems) say("failed: " + problem.message);
   const ManifestHead head =
       write_manifest(options.output, options.folder, options.names.empty() ? "" : hash_of_file(options.names),
                      std::move(tree));
@@ -70,12 +67,10 @@ void index(const IndexOptions& options) {
   }
   if (options.quiet) return;
   if (unrecognised > 0)
-    print_message(kProgram, counted(unrecognised, "image") +
-                                " skipped, because no naming convention fits (--names FILE adds one)");
-  print_message(kProgram, counted(head.count, noun_of(head.kind)) + " of " +
-                              counted(head.file_count, "file") + ", " +
-                              fixed(static_cast<double>(head.bytes) * 1e-9, 2) + " GB, in " +
-                              fixed(stopwatch.seconds(), 1) + " s");
+    say(counted(unrecognised, "image") +
+        " skipped, because no naming convention fits (--names FILE adds one)");
+  say(counted(head.count, noun_of(head.kind)) + " of " + counted(head.file_count, "file") + ", " +
+      fixed(static_cast<double>(head.bytes) * 1e-9, 2) + " GB, in " + fixed(stopwatch.seconds(), 1) + " s");
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
-#include "converter/converter_fields.hpp"
-#include "core/report_text.hpp"
+#include "converter/converter_data.hpp"
+#include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "paths/known_names.hpp"
 #include "remap/conversion.hpp"
-#include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "remap/workflow.hpp"
 #include "texremap/commands/commands.hpp"
@@ -74,8 +74,7 @@ void list_converters(const ListOptions& options) {
     if (!converter->self_test()) failed += (failed.empty() ? "" : ", ") + converter->info().id;
   }
   if (options.json) std::cout << all.dump(2) << '\n';
-  if (!failed.empty())
-    throw Error(ErrorKind::kNumeric, failed + ": self-test failed (results would be wrong)");
+  if (!failed.empty()) throw numeric_error(failed + ": self-test failed (results would be wrong)");
 }
 
 Json reached_json(const ConverterPath& path, const std::optional<ConverterPath>& closer) {
@@ -219,10 +218,9 @@ void add_list_command(Command& app) {
       "--pairs", options.pairs,
       "List the converters instead: their ranges, how far pictures differ, and their self-tests");
   command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
-  command->add_flag(
-      "--workflows", options.workflows,
-      "List the named workflows with their conventions. Other models get a workflow before their "
-      "name, such as --from specular:mitsuba/ward");
+  command->add_flag("--workflows", options.workflows,
+                    "List the named workflows with their conventions. Other models get a workflow before "
+                    "their name, such as --from specular:mitsuba/ward");
   options.converters.add_option(*command);
   command->add_flag("--json", options.json, "Print JSON");
   command->footer("Example:\n  texremap list\n  texremap list --pairs --json");

@@ -1,5 +1,5 @@
 // This is texremap. It converts texture maps from one BRDF model's parameters to another's.
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "core/system.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/run/job_processes.hpp"

@@ -3,10 +3,9 @@
 #include <iostream>
 #include <optional>
 
-#include "command_line/run_app.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/report/part_report.hpp"
 
@@ -49,9 +48,9 @@ void merge(const MergeOptions& options) {
   const MergedReport merged = merge_reports(options.folder, take);
   take(summary_json(merged).dump());
   if (file) file->commit();
-  for (const std::string& problem : merged.problems) print_message(kProgram, problem);
+  for (const std::string& problem : merged.problems) say(problem);
   for (std::size_t i = 0; i < std::min(merged.failures.size(), kShownFailures); ++i)
-    print_message(kProgram, "failed: " + merged.failures[i]);
+    say("failed: " + merged.failures[i]);
   const std::string text = counted(merged.part_count, "part") + ": " +
                            counted(merged.converted, noun_of(merged.kind)) + " converted, " +
                            std::to_string(merged.failed) + " failed, " + std::to_string(merged.done_before) +
@@ -59,7 +58,7 @@ void merge(const MergeOptions& options) {
                            fixed(merged.processor_seconds, 1) + " s of processor time";
   if (!merged.problems.empty()) throw input_error(text + "; " + counted(merged.problems.size(), "problem"));
   if (merged.failed > 0) throw input_error(text);
-  if (!options.quiet) print_message(kProgram, text);
+  if (!options.quiet) say(text);
 }
 
 }  // namespace

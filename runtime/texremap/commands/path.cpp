@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "converter/converter_fields.hpp"
+#include "converter/converter_data.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/plan/workflow_choice.hpp"

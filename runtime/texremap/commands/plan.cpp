@@ -9,8 +9,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/number_text.hpp"
 #include "core/system.hpp"
 #include "texremap/commands/commands.hpp"
 #include "texremap/commands/farm_plan.hpp"
@@ -74,7 +73,7 @@ Measurement measured(const TreeManifest& manifest, ConvertOptions options) {
     convert(options);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    print_message(kProgram, std::string("note: while measuring: ") + error.what());
+    say(std::string("note: while measuring: ") + error.what());
   }
   return {stopwatch.seconds() / static_cast<double>(std::max<std::uint64_t>(head.cost, 1)),
           static_cast<double>(resource_use().peak_memory_bytes)};
@@ -144,7 +143,7 @@ void plan(const PlanOptions& options) {
   conversion.folder = manifest.head.root;
   conversion.quiet = options.quiet;
   for (const std::string& message : resolve(conversion).messages)
-    if (!options.quiet) print_message(kProgram, message);
+    if (!options.quiet) say(message);
 
   PlannedFarm farm{options.program.empty() ? own_program() : options.program,
                    whole(options.manifest),
@@ -198,11 +197,11 @@ void plan(const PlanOptions& options) {
     if (!is_given)
       text += ": about " + fixed(seconds / 60.0, 1) + " processor minutes on this machine, " +
               fixed(longest / 60.0, 1) + " for the longest part";
-    print_message(kProgram, text + "; each part may use " + std::to_string(farm.memory_megabytes) +
-                                " MB and " + counted(static_cast<std::size_t>(farm.minutes), "minute"));
+    say(text + "; each part may use " + std::to_string(farm.memory_megabytes) + " MB and " +
+        counted(static_cast<std::size_t>(farm.minutes), "minute"));
     if (farm.parts > kMostParts && options.kind == PlanKind::kSlurm)
-      print_message(kProgram, "note: clusters with the default MaxArraySize refuse more than " +
-                                  std::to_string(kMostParts) + " parts");
+      say("note: clusters with the default MaxArraySize refuse more than " + std::to_string(kMostParts) +
+          " parts");
   }
   std::cout << submit << '\n';
 }

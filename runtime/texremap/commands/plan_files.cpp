@@ -12,11 +12,7 @@ namespace {
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-std::string shell_line(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
-  return text;
-}
+std::string shell_line(const std::vector<std::string>& words) { return joined(words, " ", shell_word); }
 
 // Returns the #SBATCH line with the log file. sbatch(1) replaces % and reads quotes and backslashes like a
 // shell, so they are escaped in `folder`.

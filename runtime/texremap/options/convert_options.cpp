@@ -5,11 +5,12 @@
 #include <cmath>
 #include <thread>
 
+#include "command_line/run_app.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "core/system.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -139,7 +140,7 @@ double number_of(const std::string& option, const std::string& text, double high
                  const std::string& allowed) {
   const auto number = parse_number(text);
   if (!number || !(*number >= 0.0 && *number <= highest))
-    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
+    throw usage_error(option + ": invalid value '" + text + "' (use " + allowed + ")");
   return *number;
 }
 
@@ -524,11 +525,9 @@ std::optional<NormalGreen> normals_of(const ModelName& model) {
                                                              "threejs/standard",
                                                              "usd-preview-surface",
                                                              "usd-preview-surface-specular"};
-  const auto holds = [](const auto& names, std::string_view name) {
-    return std::ranges::find(names, name) != names.end();
-  };
   if (const NamedLayout* engine = engine_layout_of(model.word())) return engine->normals;
-  if (holds(kUpwards, model.word()) || (holds(kUpwardModels, model.name) && !holds(kOfNoTool, model.word())))
+  if (contains(kUpwards, model.word()) ||
+      (contains(kUpwardModels, model.name) && !contains(kOfNoTool, model.word())))
     return NormalGreen::kUp;
   return std::nullopt;
 }
@@ -572,7 +571,7 @@ std::optional<MtlMaker> mtl_maker_of(const ConvertOptions& options) {
 
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
   for (const GivenOption& option : options.given)
-    if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
+    if ((option.tags & tag) != 0) throw usage_error(option.name + reason);
 }
 
 std::string result_options_text(const ConvertOptions& options) {
@@ -592,5 +591,7 @@ std::string result_options_text(const ConvertOptions& options) {
     add("--from " + std::string(options.from.word()));
   return text;
 }
+
+void say(const std::string& text) { print_message("texremap", text); }
 
 }  // namespace remap

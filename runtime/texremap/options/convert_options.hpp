@@ -78,7 +78,16 @@ struct Compression {
   std::optional<int> level, jpeg_quality;
 };
 
-struct ConvertOptions {
+// A RunOptions holds the options that the plan of a conversion has unchanged.
+struct RunOptions {
+  std::filesystem::path output;
+  std::filesystem::path report;  // HTML file about the conversion; empty for none
+  std::optional<Part> part;      // part of the manifest
+  bool force = false, dry_run = false;
+  bool json = false, quiet = false, verbose = false;
+};
+
+struct ConvertOptions : RunOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
   std::filesystem::path folder;  // folder of texture sets, or a glTF file; empty if options name one set
@@ -93,7 +102,6 @@ struct ConvertOptions {
   bool recursive = false;
   bool follow_links = false;       // follows links that lead out of the input folder
   std::filesystem::path manifest;  // lists the sets or assets, so that the folder is not searched
-  std::optional<Part> part;        // part of the manifest
 
   std::map<Parameter, std::optional<MapSource>> maps;
   std::optional<MapSource> glossiness;                  // also in `maps`, as roughness
@@ -108,7 +116,6 @@ struct ConvertOptions {
   F0Choice dielectric_f0;
   double prior = kCleanPrior;
 
-  std::filesystem::path output;
   std::optional<Layout> layout;
   const NamedLayout* engine = nullptr;  // engine whose files are written (choose_files())
   std::string format;
@@ -119,10 +126,8 @@ struct ConvertOptions {
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
   std::filesystem::path diagnose;  // folder for diagnosis maps; empty for none
-  std::filesystem::path report;    // HTML file; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
-  bool only_converted = false, force = false, dry_run = false;
-  bool json = false, quiet = false, verbose = false;
+  bool only_converted = false;
   InstructionSet instructions = best_instruction_set();
   int thread_count = 0;  // 0 for one per core
   int threads() const;
@@ -160,6 +165,7 @@ void note_given(const Command& command, ConvertOptions& options);
 // Returns all options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
 
-inline constexpr const char* kProgram = "texremap";  // begins every message
+// Prints a line to standard error: `texremap: text`.
+void say(const std::string& text);
 
 }  // namespace remap

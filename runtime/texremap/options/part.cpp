@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/plain_text.hpp"
 
 namespace remap {
 namespace {
@@ -113,13 +114,9 @@ Part part_in(const ArrayJob::Environment& environment, std::optional<std::size_t
   std::vector<ArrayJob> jobs;
   for (const Scheduler& scheduler : kSchedulers)
     if (const ArrayJob job(scheduler, environment); job.is_one()) jobs.push_back(job);
-  if (jobs.empty()) {
-    std::string names;
-    for (const Scheduler& scheduler : kSchedulers)
-      names += (names.empty() ? "" : ", ") + std::string(scheduler.index);
-    throw usage_error("--part auto: not running in an array job (none of " + names +
-                      " is set; give --part I/N)");
-  }
+  if (jobs.empty())
+    throw usage_error("--part auto: not running in an array job (none of " +
+                      joined(kSchedulers, ", ", &Scheduler::index) + " is set; give --part I/N)");
   if (jobs.size() > 1)
     throw usage_error("--part auto: " + jobs[0].text() + " and " + jobs[1].text() +
                       " are both set (give --part I/N)");

@@ -7,10 +7,9 @@ namespace remap {
 
 Option* UsedConverters::add_option(Command& command) {
   return command
-      .add_option(
-          "--converters PATH", path_,
-          "Use these converters instead of the shipped ones: a fit, a folder of fits, or a converters.json "
-          "of `remapc emit --all`")
+      .add_option("--converters PATH", path_,
+                  "Use these converters instead of the shipped ones: a fit, a folder of fits, or a "
+                  "converters.json of `remapc emit --all`")
       ->environment("REMAP_CONVERTERS");
 }
 

@@ -4,10 +4,9 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/safe_relative.hpp"
 #include "sets/folder_walk.hpp"
-#include "texture/enlarged_pixels.hpp"
 #include "texture/image_library.hpp"
+#include "texture/image_reader.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -26,8 +25,7 @@ fs::path below(const fs::path& folder, const fs::path& root, const std::string& 
       throw input_error(display_path(path) + ": is outside the " +
                         (root.lexically_normal() == "." ? "current folder" : "folder " + display_path(root)) +
                         " (copy this file into the folder, or give a larger folder before the asset: "
-                        "texremap convert FOLDER "
-                        "ASSET)");
+                        "texremap convert FOLDER ASSET)");
   fs::path place = (inner / path).lexically_normal();
   if (std::ranges::any_of(place, is_own_name))
     throw input_error(display_path(path) + ": has a name that texremap uses for its own files (rename it)");
@@ -63,22 +61,11 @@ fs::path FolderResources::output(const std::string& path) const {
   return job_.output_root / below(folder_of_asset(job_.output), job_.output_root, path);
 }
 
-bool are_same_files(const fs::path& a, const fs::path& b) {
-  const FileSource first(a), second(b);
+bool have_same_bytes(const ByteSource& first, const ByteSource& second) {
   if (first.size() != second.size()) return false;
   for (std::uint64_t at = 0; at < first.size(); at += kCopiedAtOnce) {
     const std::uint64_t count = std::min(kCopiedAtOnce, first.size() - at);
     if (first.read(at, count) != second.read(at, count)) return false;
-  }
-  return true;
-}
-
-bool have_same_bytes(const fs::path& file, std::string_view bytes) {
-  const FileSource source(file);
-  if (source.size() != bytes.size()) return false;
-  for (std::uint64_t at = 0; at < source.size(); at += kCopiedAtOnce) {
-    const std::uint64_t count = std::min(kCopiedAtOnce, source.size() - at);
-    if (source.read(at, count) != bytes.substr(at, count)) return false;
   }
   return true;
 }
@@ -119,7 +106,7 @@ ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResourc
     }
     if (same_file(source, target)) continue;
     if (fs::is_regular_file(target, ignored)) {
-      if (are_same_files(source, target)) continue;
+      if (have_same_bytes(FileSource(source), FileSource(target))) continue;
       require_free(target);
     }
     plan.copies.push_back({source, target});

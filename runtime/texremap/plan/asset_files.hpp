@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "assets/document/asset.hpp"
@@ -66,9 +65,8 @@ struct ResourcePlan {
 ResourcePlan plan_resources(const AssetWork& job, const std::vector<AssetResource>& resources,
                             const std::function<void(const std::filesystem::path&)>& require_free);
 
-// Returns true if the file holds these bytes. Throws kInput.
-bool have_same_bytes(const std::filesystem::path& file, std::string_view bytes);
-bool are_same_files(const std::filesystem::path& a, const std::filesystem::path& b);
+// Throws kInput.
+bool have_same_bytes(const ByteSource& first, const ByteSource& second);
 
 // Adds the bytes of the pieces, a megabyte at a time.
 void add_pieces(NewFile& file, const std::vector<AssetPiece>& pieces, const ByteSource& source);

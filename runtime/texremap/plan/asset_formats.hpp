@@ -1,4 +1,5 @@
-// This file maps extensions of assets to formats: which code reads each, and what each may become.
+// This file maps extensions of assets to formats: which code reads each, and what each may become. It
+// also checks the input paths of a user, and suggests what to do about files that texremap cannot read.
 #pragma once
 
 #include <filesystem>
@@ -34,5 +35,11 @@ std::vector<AssetResource> resources_of_asset(const ByteSource& source, const st
 AssetConversion convert_asset(const ByteSource& source, const std::filesystem::path& input,
                               const std::filesystem::path& output, const AssetOptions& options,
                               const AssetResources& resources);
+
+// Throws kUsage, with the format and the advice, for a file of a format that other tools use.
+void require_readable(const std::filesystem::path& path);
+
+// Throws kUsage for paths that are neither one folder nor only assets.
+void require_one_kind(const std::filesystem::path& first, const std::vector<std::filesystem::path>& more);
 
 }  // namespace remap

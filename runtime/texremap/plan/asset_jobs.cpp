@@ -1,5 +1,3 @@
-#include "texremap/plan/asset_jobs.hpp"
-
 #include <algorithm>
 #include <set>
 #include <unordered_map>
@@ -12,6 +10,7 @@
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"
+#include "texremap/plan/job.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/plain_text.hpp"
-#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -29,10 +29,9 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
       applies = true;
     }
     if (!applies)
-      throw Error(ErrorKind::kUsage,
-                  option + ": has no effect, because no " +
-                      (word.parameter ? std::string(parameter_name(*word.parameter)) : "color") + " " +
-                      reason);
+      throw usage_error(option + ": has no effect, because no " +
+                        (word.parameter ? std::string(parameter_name(*word.parameter)) : "color") + " " +
+                        reason);
   }
   return chosen;
 }
@@ -60,23 +59,22 @@ void require_parameters(const ConvertOptions& options, const ConversionChoice& w
         {Parameter::kDiffuse, "a map or a number; 0 for bare metal"},
         {Parameter::kBaseColor, "a map or numbers"},
         {Parameter::kMetallic, "a map or a number; 0 for dielectrics"}};
-    throw Error(ErrorKind::kUsage,
-                parameter_option(parameter) + " is required (" + kRemedies.at(parameter) + ")");
+    throw usage_error(parameter_option(parameter) + " is required (" + kRemedies.at(parameter) + ")");
   }
 }
 
 // Refuses maps and numbers that the conversion does not read.
 void require_read(const ConvertOptions& options, const ConversionChoice& workflow) {
   const auto refuse_map = [](const std::string& option, bool is_result) {
-    throw Error(ErrorKind::kUsage, option + ": has no effect, because the source material has no " +
-                                       option.substr(2, option.find("-factor") - 2) +
-                                       (is_result ? " (this conversion writes it; remove this option)"
-                                                  : " (remove this option)"));
+    throw usage_error(
+        option + ": has no effect, because the source material has no " +
+        option.substr(2, option.find("-factor") - 2) +
+        (is_result ? " (this conversion writes it; remove this option)" : " (remove this option)"));
   };
   const std::vector<Parameter> targets = workflow.targets();
   for (const Parameter parameter :
        {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kMetallic}) {
-    const bool is_result = std::find(targets.begin(), targets.end(), parameter) != targets.end();
+    const bool is_result = contains(targets, parameter);
     // Without a workflow, colors are copied and metallic has a place in some layouts.
     const bool has_place = !workflow.is_material() || (parameter == Parameter::kMetallic && !is_result);
     if (!workflow.has_source(parameter) && !has_place && options.map_of(parameter) != nullptr)
@@ -92,8 +90,8 @@ void require_read(const ConvertOptions& options, const ConversionChoice& workflo
     if (is_input(parameter) && !workflow.translation)
       throw usage_error(
           parameter_option(parameter) +
-          ": requires openpbr or standard-surface as one of the two models (the other one can "
-          "also be gltf or usd, or blender in --from; choose such models, or remove this option)");
+          ": requires openpbr or standard-surface as one of the two models (the other one can also be gltf "
+          "or usd, or blender in --from; choose such models, or remove this option)");
     const bool is_used = parameter == Parameter::kOcclusion ||
                          (parameter == Parameter::kMetalMask && workflow.finds_metallic());
     if (!is_used) refuse_input("--input", parameter);
@@ -106,9 +104,9 @@ void require_one_way(const ConvertOptions& options, const ConversionChoice& work
   if (!is_tree) refuse(options, kNeedsFolder, " requires a folder of sets (give DIR)");
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && options.map_of(parameter) != nullptr)
-      throw Error(ErrorKind::kUsage, parameter_option(parameter) +
-                                         " cannot be used with a folder, because texremap copies the maps of "
-                                         "the folder (remove this option)");
+      throw usage_error(parameter_option(parameter) +
+                        " cannot be used with a folder, because texremap copies the maps of the folder "
+                        "(remove this option)");
   require_read(options, workflow);
   if (!is_tree && !workflow.translation) require_parameters(options, workflow);
 }
@@ -191,11 +189,10 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Conver
     if (source == nullptr) continue;
     const auto* map = std::get_if<MapName>(source);
     if (map == nullptr || !map->channels.empty())
-      throw Error(ErrorKind::kUsage,
-                  parameter_option(parameter) +
-                      ": cannot be converted without a workflow (give a file to copy it, or use --from " +
-                      (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name +
-                      ")");
+      throw usage_error(parameter_option(parameter) +
+                        ": cannot be converted without a workflow (give a file to copy it, or use --from " +
+                        (parameter == Parameter::kDiffuse ? "specular:" : "metallic:") + options.from.name +
+                        ")");
     files.push_back({map->file, std::string(parameter_name(parameter)), ""});
   }
   return files;
@@ -248,15 +245,13 @@ void require_encoding(const ConvertOptions& options, const TargetChoice& choice)
   const std::optional<RoughnessEncoding> held = choice.layout.width();
   constexpr auto kGlossiness = RoughnessEncoding::kGlossiness;
   if (held && (*asked == kGlossiness) != (*held == kGlossiness))
-    throw Error(ErrorKind::kUsage, "--output-encoding " + std::string(encoding_name(*asked)) +
-                                       " cannot be used with --layout " + choice.layout.name +
-                                       ", which stores " + std::string(encoding_name(*held)) +
-                                       " (use --layout separate)");
+    throw usage_error("--output-encoding " + std::string(encoding_name(*asked)) +
+                      " cannot be used with --layout " + choice.layout.name + ", which stores " +
+                      std::string(encoding_name(*held)) + " (use --layout separate)");
   if (options.only == Parameter::kSpecular)
-    throw Error(
-        ErrorKind::kUsage,
-        "--output-encoding: has no effect, because --only specular writes no roughness (remove one of "
-        "the two)");
+    throw usage_error(
+        "--output-encoding: has no effect, because --only specular writes no roughness (remove one of the "
+        "two)");
 }
 
 }  // namespace
@@ -273,10 +268,10 @@ RoughnessEncoding written_width(const TargetChoice& choice, const TextureSet& se
   if (!choice.layout.keeps_names || map == nullptr) return wanted;
   const bool is_glossy = set.convention == kGlossiness;
   if (asked && is_glossy != (*asked == kGlossiness))
-    throw Error(ErrorKind::kUsage,
-                "--output-encoding " + std::string(encoding_name(*asked)) + ": the result keeps the name " +
-                    set.maps[map->channels.front().map].path().filename().string() + ", which means " +
-                    (is_glossy ? "glossiness" : "roughness") + " (use --layout separate)");
+    throw usage_error("--output-encoding " + std::string(encoding_name(*asked)) +
+                      ": the result keeps the name " +
+                      set.maps[map->channels.front().map].path().filename().string() + ", which means " +
+                      (is_glossy ? "glossiness" : "roughness") + " (use --layout separate)");
   if (is_glossy) return kGlossiness;
   return wanted == kGlossiness ? kRoughness : wanted;
 }
@@ -317,8 +312,7 @@ std::optional<TranslationEffect> effect_of(const ConversionChoice& workflow,
 
 void apply(const TranslationEffect& effect, TargetChoice& choice) {
   std::erase_if(choice.parameters, [&](Parameter parameter) {
-    return std::ranges::find(effect.written, parameter) == effect.written.end() &&
-           choice.layout.file_with(parameter) == nullptr;
+    return !contains(effect.written, parameter) && choice.layout.file_with(parameter) == nullptr;
   });
   choice.unchanged = effect.unchanged;
   choice.wide = effect.wide;

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/maps/workflow_values.hpp"
+#include "assets/maps/gltf_maps.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "paths/converter_file.hpp"
@@ -15,12 +14,10 @@
 #include "remap/warp.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_formats.hpp"
-#include "texremap/plan/asset_jobs.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/plan/named_paths.hpp"
-#include "texremap/plan/set_choice.hpp"
-#include "texremap/plan/set_jobs.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/plan/workflow_choice.hpp"
 
 namespace remap {
 namespace {
@@ -51,7 +48,7 @@ BuiltConversion conversion_of(const ConvertOptions& options, const WarpMapFit* w
 }
 
 bool are_constants(const TextureSetRequest& request) {
-  return std::all_of(request.parameters.begin(), request.parameters.end(), [](const auto& entry) {
+  return std::ranges::all_of(request.parameters, [](const auto& entry) {
     return std::holds_alternative<ConstantValues>(entry.second.source);
   });
 }
@@ -100,11 +97,9 @@ std::optional<TreeManifest> listed_entries(ConvertOptions& options) {
 // to 255.
 std::string fractions_text(const std::vector<float>& values) {
   const bool is_percent = values.size() == 1 && values.front() <= 100.0f;
-  std::string text;
-  for (const float value : values)
-    text += (text.empty() ? "" : ",") +
-            number_text(std::round(static_cast<double>(value) / (is_percent ? 1.0 : 2.55)) / 100.0);
-  return text;
+  return joined(values, ",", [&](double value) {
+    return number_text(std::round(value / (is_percent ? 1.0 : 2.55)) / 100.0);
+  });
 }
 
 // Refuses numbers that can only be per cent or 0 to 255, except exponents.
@@ -112,9 +107,7 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
   const auto require = [](const std::string& option, const ParameterRequest& asked) {
     const auto* values = std::get_if<ConstantValues>(&asked.source);
     if (values == nullptr || std::ranges::none_of(*values, [](float value) { return value >= 2.0f; })) return;
-    std::string typed;
-    for (const float value : *values)
-      typed += (typed.empty() ? "" : ",") + number_text(static_cast<double>(value));
+    const std::string typed = joined(*values, ",", number_text);
     const bool has_meaning = std::ranges::all_of(*values, [](float value) { return value <= 255.0f; });
     const std::string sign = option.starts_with("--input ") ? "=" : " ";
     throw usage_error(option + sign + typed + ": values lie between 0 and 1" +
@@ -140,14 +133,9 @@ void require_fractions(const TextureSetRequest& request, const ConverterInfo& in
     require(parameter_option(*parameter_named(carried.name)), carried.parameter);
 }
 
-// Finds the sets of the manifest or the folder. Without either there are none.
-void find_sets_of(const ConvertOptions& options, std::optional<Discovery>& sets) {
-  if (!sets) sets = discovered_sets(options);
-}
-
 // Plans the conversion of numbers, or of texture sets.
 void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, ConvertPlan& plan) {
-  std::optional<Discovery> found;
+  std::optional<Discovery> found;  // sets of the manifest or the folder; without either there are none
   choose_files(options);
   if (manifest) found = std::move(manifest->found);
   std::string inferred;
@@ -159,10 +147,8 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
       throw usage_error(
           "--from is required with --part, because texremap cannot detect the model from the maps of one "
           "part");
-    find_sets_of(options, found);
-    const InferredSource source = inferred_source(options, found);
-    options.from = model_name().read("--from", source.model);
-    inferred = source.note;
+    if (!found) found = discovered_sets(options);
+    inferred = infer_source(options, found);
   }
   ConversionChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   if (!inferred.empty()) workflow.notes.insert(workflow.notes.begin(), inferred);
@@ -185,7 +171,7 @@ void plan_sets(ConvertOptions& options, std::optional<TreeManifest> manifest, Co
     return refuse(
         options, kNeedsFiles,
         ": has no effect, because you gave only numbers (give a map as a file, or remove this option)");
-  find_sets_of(options, found);
+  if (!found) found = discovered_sets(options);
   if (options.output.empty()) throw usage_error("--output is required (add -o FOLDER)");
   plan.list = set_jobs(options, chosen.choice, sets.request, std::move(found));
   if (const std::string text = encoding_warning(options, plan.list, chosen.info().source); !text.empty())
@@ -344,8 +330,7 @@ ConvertPlan resolve(ConvertOptions options) {
   std::optional<TreeManifest> manifest = listed_entries(options);
   const bool has_assets = are_assets(options, manifest);
   ConvertPlan plan;
-  plan.part = options.part;
-  if (plan.part && !plan.part->note.empty()) plan.messages.push_back("note: " + plan.part->note);
+  if (options.part && !options.part->note.empty()) plan.messages.push_back("note: " + options.part->note);
   if (manifest) plan.manifest = manifest->head;
   if (has_assets) complete_asset_options(options);
   confine(options, manifest);
@@ -353,17 +338,11 @@ ConvertPlan resolve(ConvertOptions options) {
     plan_assets(options, manifest, plan);
   else
     plan_sets(options, std::move(manifest), plan);
-  plan.output = options.output;
-  plan.force = options.force;
-  plan.report = options.report;
+  static_cast<RunOptions&>(plan) = options;
   plan.command = command_text(options.given);
   if (!plan.report.empty()) require_new(plan.report, plan.force);
-  plan.dry_run = options.dry_run;
   plan.threads = options.threads();
   plan.memory_bytes = options.memory_bytes();
-  plan.json = options.json;
-  plan.quiet = options.quiet;
-  plan.verbose = options.verbose;
   return plan;
 }
 

@@ -11,7 +11,6 @@
 
 #include "assets/document/asset.hpp"
 #include "texremap/options/convert_options.hpp"
-#include "texremap/plan/conversion_note.hpp"
 #include "texremap/plan/converter_text.hpp"
 #include "texremap/plan/job.hpp"
 #include "texremap/plan/manifest.hpp"
@@ -30,22 +29,16 @@ struct SetPlan {
   std::string source_name = {}, target_name = {};  // aliases that the user typed, otherwise the models
 };
 
-struct ConvertPlan {
+struct ConvertPlan : RunOptions {
   std::variant<SetPlan, AssetOptions> work;
   JobList list;  // no jobs if all maps are numbers
   ConversionNote conversion;
 
-  std::filesystem::path output;
-  bool force = false, dry_run = false;
-  std::filesystem::path report;  // HTML file about the conversion; empty for none
-  std::string command;           // the command line, as text
+  std::string command;  // the command line, as text
   int threads = 1;
   std::uint64_t memory_bytes = 0;  // memory for images, in all threads
-  std::optional<Part> part;        // part of the manifest
   ManifestHead manifest;
-
   std::vector<std::string> messages;  // `warning: ...` and `note: ...` about assumptions
-  bool json = false, quiet = false, verbose = false;
 
   // Returns null for assets.
   const SetPlan* sets() const { return std::get_if<SetPlan>(&work); }

@@ -1,12 +1,16 @@
-// This file writes converters and paths as text and as JSON, for all commands.
+// This file writes converters and paths as text and as JSON, for all commands. A ConversionNote
+// records what results depend on, except the inputs, so that a later run can compare it.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/json.hpp"
 #include "remap/conversion.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 
@@ -54,5 +58,18 @@ Json path_json(const ConverterPath& path);
 // them), `same_lobe` (true if numbers are copied) and `closer_model` (null, or the model with its path and
 // expected error).
 Json pictures_json(const ConverterPath& path, const std::optional<ConverterPath>& closer);
+
+struct ConversionNote {
+  std::string source, target;  // names of models
+  std::string hash;            // hash of everything, including the converter's results
+  // If two notes differ, a message shows which of these differ: converter, options, version.
+  std::vector<std::pair<std::string, std::string>> details;
+};
+
+// Makes a note. Its hash covers the converter's results for texels all over its domain, so it notices changed
+// numbers and changed code. `ids` are the ids of the steps, or empty for assets. `options` are the options
+// that change results.
+ConversionNote conversion_note(const std::string& source, const std::string& target, const std::string& ids,
+                               const Converter& converter, const std::string& options);
 
 }  // namespace remap

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "core/contains.hpp"
+#include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "core/safe_relative.hpp"
 #include "sets/folder_walk.hpp"
 
 namespace remap {
@@ -18,8 +19,7 @@ std::vector<fs::path> Job::folders() const {
   const auto& asset = std::get<AssetWork>(work);
   std::vector<fs::path> folders = {folder_of_asset(asset.output)};
   for (const fs::path& file : asset.files)
-    if (const fs::path folder = folder_of_asset(asset.copy_of(file));
-        std::ranges::find(folders, folder) == folders.end())
+    if (const fs::path folder = folder_of_asset(asset.copy_of(file)); !contains(folders, folder))
       folders.push_back(folder);
   return folders;
 }

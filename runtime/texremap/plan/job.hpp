@@ -1,4 +1,5 @@
-// This file describes the jobs of `texremap convert`: texture sets, tiles of sets, and assets.
+// This file describes the jobs of `texremap convert`: texture sets, tiles of sets, and assets. It lists them
+// from the command line, a folder, or a manifest.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,10 @@
 #include <vector>
 
 #include "remap/surface.hpp"
+#include "sets/discovery.hpp"
+#include "texremap/options/convert_options.hpp"
 #include "texremap/plan/manifest.hpp"
+#include "texremap/plan/workflow_choice.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"
 
@@ -106,5 +110,31 @@ struct JobList {
   bool has_several = false;        // if one job fails, the others go on
   std::string tile_noun = "tile";  // "frame" for sequences
 };
+
+// Returns the assets on the command line.
+std::vector<std::filesystem::path> named_assets(const ConvertOptions& options);
+
+// Returns true if the name belongs to an asset that this program reads.
+bool is_asset(const std::filesystem::path& path);
+
+// Returns the jobs of the assets in `listed`, the content of a manifest, or if it is null, of the assets that
+// the options name. If an asset would write a file of another asset, its job gets a refusal. For assets on
+// the command line, throws kUsage instead. Also throws kUsage if a folder has no assets, and kInput if the
+// folder cannot be read.
+JobList asset_jobs(const ConvertOptions& options, const TreeManifest* listed);
+
+// Returns the assets of a folder as a manifest lists them. `format` is the target of OBJ files, or empty.
+// Throws like asset_jobs().
+TreeManifest tree_of_assets(const std::filesystem::path& folder, const std::string& format);
+
+// Finds the sets of the folder in the options. Returns nothing without a folder. Throws kInput if the folder
+// or a naming file cannot be read.
+std::optional<Discovery> discovered_sets(const ConvertOptions& options);
+
+// `request` holds what the options give for one set, or for all sets of a folder. If two sets would write the
+// same file, the second is skipped. Throws kUsage if the folder has no sets, and kInput if the folder or a
+// naming file cannot be read.
+JobList set_jobs(const ConvertOptions& options, const ConversionChoice& workflow,
+                 const TextureSetRequest& request, std::optional<Discovery> sets);
 
 }  // namespace remap

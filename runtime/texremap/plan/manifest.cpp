@@ -7,7 +7,6 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/safe_relative.hpp"
 #include "core/system.hpp"
 #include "remap/version.hpp"
 #include "texture/content_hash.hpp"

@@ -1,20 +1,19 @@
-#include "texremap/plan/set_jobs.hpp"
-
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
-#include "remap/error.hpp"
+#include "core/number_text.hpp"
 #include "sets/discovery.hpp"
 #include "sets/folder_walk.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 #include "texremap/plan/asset_formats.hpp"
 #include "texremap/plan/conversion_request.hpp"
-#include "texremap/plan/set_choice.hpp"
+#include "texremap/plan/job.hpp"
+#include "texremap/plan/workflow_choice.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -159,9 +158,9 @@ JobList SetJobs::list() {
   if (options_.part) return std::move(jobs_);  // a part does not see all sets
   require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.skipped.empty())
-    throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
-                                       (options_.recursive ? "" : "--recursive for subfolders, or ") +
-                                       "--names FILE for other names)");
+    throw usage_error(root_.string() + ": no texture set found by file names (use " +
+                      (options_.recursive ? "" : "--recursive for subfolders, or ") +
+                      "--names FILE for other names)");
   return std::move(jobs_);
 }
 
@@ -231,9 +230,9 @@ void SetJobs::add(FoundSet set) {
   const bool is_metallic =
       !uses(set, is<Role::kMetallic>).empty() && !uses(set, is<Role::kBaseColor>).empty();
   if (is_metallic && !workflow_.is_material())
-    notes.push_back(context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
-                    " does not read, so metals get a wrong specular (--from metallic converts the whole "
-                    "material)");
+    notes.push_back(
+        context(set) + ": has base color and metallic, which " + workflow_.source_brdf +
+        " does not read, so metals get a wrong specular (--from metallic converts the whole material)");
   if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kRoughness))
     set = of_diffuse_alone(std::move(set));
   if (set.state == SetState::kSkipped && has_given_width(set)) set.state = SetState::kReady;
@@ -249,10 +248,9 @@ void SetJobs::add(FoundSet set) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter))
-      return fail(
-          context(set) + ": has a " + std::string(role_name(found.front().role)) +
-          " map, but the warp converts only a diffuse map (use a warp that was made for all maps, or give "
-          "--diffuse MAP instead of the folder)");
+      return fail(context(set) + ": has a " + std::string(role_name(found.front().role)) +
+                  " map, but the warp converts only a diffuse map (use a warp that was made for all maps, or "
+                  "give --diffuse MAP instead of the folder)");
     if (found.size() > 1) return fail(context(set) + ": " + too_many_text(set, found, name));
     if (found.empty() && given_map(parameter) == nullptr && !is_given(defaults_.parameters.at(parameter)))
       return fail(context(set) + ": no " + name + " map found (for sets without this map, use " +
@@ -330,7 +328,7 @@ bool SetJobs::is_rest_of_packed(const FoundMap& map, const ChannelMeaning& entry
   const bool has_color = std::ranges::any_of(
       map.meaning, [](const ChannelMeaning& other) { return other.channels == Channels::kRgb; });
   return map.is_converted && !options_.only_converted && !has_color && entry.channels != Channels::kWhole &&
-         std::ranges::find(kRest, entry.role) != kRest.end();
+         contains(kRest, entry.role);
 }
 
 // Adds the maps that are not converted but have a place in the layout.
@@ -351,9 +349,8 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
       if (entry.role != Role::kOcclusion && !carries_metallic && !is_rest_of_packed(map, entry)) continue;
       const std::string name(role_name(entry.role));
       const std::optional<fs::path> file = file_of(map, tile);
-      const bool is_named =
-          std::any_of(request.carried.begin(), request.carried.end(),
-                      [&](const Carried<ParameterRequest>& carried) { return carried.name == name; });
+      const bool is_named = std::ranges::any_of(
+          request.carried, [&](const Carried<ParameterRequest>& carried) { return carried.name == name; });
       if (file && !is_named)
         request.carried.push_back(
             {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
@@ -362,7 +359,7 @@ void SetJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) c
 
 bool is_normal(const FoundMap& map) {
   const std::string name = lower(map.path.filename().string());
-  return std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() ||
+  return contains(map.meaning, Role::kNormal, &ChannelMeaning::role) ||
          name.find("normal") != std::string::npos;  // normal map of a coat
 }
 
@@ -387,14 +384,12 @@ void SetJobs::place_others(const FoundSet& set, int tile, SetWork& work) {
     const std::optional<fs::path> file = file_of(map, tile);
     if (!file || (map.tiles.empty() && !is_first)) continue;
     const fs::path source = root_ / *file;
-    if (std::ranges::find(map.meaning, Role::kNormal, &ChannelMeaning::role) != map.meaning.end() &&
-        work.normals.empty()) {
+    if (contains(map.meaning, Role::kNormal, &ChannelMeaning::role) && work.normals.empty()) {
       work.normals = source;
       work.green = stated_green(source.filename().string())
                        .value_or(normals_of(options_.from).value_or(NormalGreen::kUp));
     }
-    if (std::any_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
-      continue;
+    if (std::ranges::any_of(read, [&](const fs::path* known) { return *known == source; })) continue;
     if (!comes_along(map)) {
       work.left_behind.push_back(source);
       continue;
@@ -422,7 +417,7 @@ bool SetJobs::comes_along(const FoundMap& map) const {
   });
   if (workflow_.translation && is_of_source) return false;  // an option gives another map
   return !workflow_.is_material() || std::ranges::none_of(map.meaning, [&](const ChannelMeaning& entry) {
-    return std::ranges::find(kConverted, entry.role) != kConverted.end();
+    return contains(kConverted, entry.role);
   });
 }
 
@@ -465,10 +460,10 @@ void SetJobs::note_sizes(Job& job) const {
 void SetJobs::require_encoding_used() const {
   if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !encoding_of(set.width->role); };
-  if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
-    throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: has no effect, because the file names of all maps give "
-                "the encoding (remove this option)");
+  if (std::ranges::none_of(converted_, speaks_of))
+    throw usage_error(
+        "--roughness-encoding: has no effect, because the file names of all maps give the encoding (remove "
+        "this option)");
 }
 
 // Reserves the names of a set's results, and of copies of its maps. If another set has one of these names,
@@ -521,8 +516,7 @@ JobList tile_jobs(const SetWork& whole_set, const std::vector<TiledFile>& tiled)
   std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
   for (std::size_t i = 0; i < tiled.size(); ++i) {
     const Tiles own = existing_tiles(tiled[i].file);
-    if (own.empty())
-      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
+    if (own.empty()) throw input_error(tiled[i].file.string() + ": no " + list.tile_noun + " found");
     for (const auto& [number, file] : own) tiles[number].insert(i);
   }
   for (const auto& [number, present] : tiles) {

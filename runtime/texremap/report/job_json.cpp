@@ -1,9 +1,9 @@
-#include "texremap/report/job_json.hpp"
-
 #include <algorithm>
 
-#include "core/report_text.hpp"
+#include "core/contains.hpp"
+#include "core/number_text.hpp"
 #include "texremap/plan/converter_text.hpp"
+#include "texremap/report/reporter.hpp"
 
 namespace remap {
 namespace {
@@ -15,14 +15,13 @@ Json position_json(const std::optional<TexelPosition>& texel) {
 // Returns the first result for which `holds` returns true, or null.
 template <typename Holds>
 Json file_json(const JobReport& report, const Holds& holds) {
-  const auto found = std::find_if(report.results.begin(), report.results.end(), holds);
+  const auto found = std::ranges::find_if(report.results, holds);
   return found == report.results.end() ? Json() : Json(found->path.string());
 }
 
 Json file_json(const JobReport& report, Parameter parameter) {
   return file_json(report, [parameter](const JobReport::Result& result) {
-    return std::find(result.parameters.begin(), result.parameters.end(), parameter) !=
-           result.parameters.end();
+    return contains(result.parameters, parameter);
   });
 }
 
@@ -127,8 +126,7 @@ Json set_json(const ConvertPlan& plan, const JobReport& report) {
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
-    if (!report.effect && std::find(named.begin(), named.end(), parameter) == named.end())
-      named.push_back(parameter);
+    if (!report.effect && !contains(named, parameter)) named.push_back(parameter);
   const auto of = [&](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);
     return found == all.end() ? Json() : values_json(found->second, plan.verbose);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "look/asset_reader.hpp"
+#include "look/material_looks.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"

@@ -1,16 +1,13 @@
-#include "texremap/report/job_text.hpp"
-
 #include <algorithm>
 #include <iostream>
 
-#include "command_line/run_app.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "core/report_text.hpp"
+#include "core/plain_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/run/planned_roles.hpp"
+#include "texremap/report/reporter.hpp"
+#include "texremap/run/job_report.hpp"
 
 namespace remap {
 namespace {
@@ -72,31 +69,25 @@ void print_confidence(const std::string& context, const SetPlan& sets, const Job
   const bool is_estimate = sets.dielectric_f0 == F0Choice(F0Source::kMaps);
   if (const auto& f0 = report.estimated_f0; f0 && (verbose || is_estimate || report.name.empty())) {
     const double of_model = std::get<MetallicWorkflow>(*sets.chosen.choice.target).dielectric_f0;
-    print_message(kProgram, context + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
-                                (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
-                                number_text(is_estimate && f0->is_certain ? used_f0(*f0) : of_model) +
-                                " is used");
+    say(context + "dielectric F0 estimated from the maps: " + number_text(used_f0(*f0)) +
+        (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
+        number_text(is_estimate && f0->is_certain ? used_f0(*f0) : of_model) + " is used");
   }
   if (metallic.texel_count == 0) return;
   const double difference = kPictureOfResidual * metallic.rms_residual();
   const auto percent = [](double share, int decimals) { return fixed(100.0 * share, decimals) + " %"; };
   if (difference >= kVisible)
-    print_message(kProgram,
-                  context +
-                      "metal-rough cannot express these maps exactly; the visible difference is about " +
-                      percent(difference, 0) + " (--diagnose DIR shows where)");
+    say(context + "metal-rough cannot express these maps exactly; the visible difference is about " +
+        percent(difference, 0) + " (--diagnose DIR shows where)");
   if (!verbose) return;
   const auto share = [&](std::size_t count) {
     return percent(static_cast<double>(count) / static_cast<double>(metallic.texel_count), 2);
   };
-  print_message(kProgram, context + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) +
-                              " rms, " + fixed(static_cast<double>(metallic.largest_residual), 3) +
-                              " at most");
-  print_message(kProgram, context + "metallic is undetermined, without visible effect, in " +
-                              share(metallic.undetermined.count) + " of the texels (too dark in " +
-                              share(metallic.dark.count) + "), has two possible values in " +
-                              share(metallic.ambiguous.count) + ", is clamped in " +
-                              share(metallic.clamped.count));
+  say(context + "residual of metal-rough: " + fixed(metallic.rms_residual(), 4) + " rms, " +
+      fixed(static_cast<double>(metallic.largest_residual), 3) + " at most");
+  say(context + "metallic is undetermined, without visible effect, in " + share(metallic.undetermined.count) +
+      " of the texels (too dark in " + share(metallic.dark.count) + "), has two possible values in " +
+      share(metallic.ambiguous.count) + ", is clamped in " + share(metallic.clamped.count));
 }
 
 std::string value_text(const SurfaceValue& value) {
@@ -113,31 +104,27 @@ void print_effect(const ConvertPlan& plan, const std::string& context, const Tra
   const std::string& target = plan.sets()->chosen.info().target.model;
   std::vector<std::string> values;
   for (const SurfaceValue& value : effect.values) values.push_back(value_text(value));
-  if (!values.empty())
-    print_message(kProgram, context + "set these inputs of " + target + ": " + joined(values, ", "));
-  if (!effect.lost.empty())
-    print_message(kProgram, context + "no effect in " + target + ": " + joined(effect.lost, ", "));
+  if (!values.empty()) say(context + "set these inputs of " + target + ": " + joined(values, ", "));
+  if (!effect.lost.empty()) say(context + "no effect in " + target + ": " + joined(effect.lost, ", "));
 }
 
 void print_set(const ConvertPlan& plan, const std::string& context, const JobReport& report) {
   const BuiltConversion& chosen = plan.sets()->chosen;
   if (report.effect) print_effect(plan, context, *report.effect);
   if (plan.dry_run) {
-    print_message(kProgram, context + "would write " + files_text(report) + " from " +
-                                counted(report.inputs.size(), "file") +
-                                " (first: " + report.inputs.front().string() + ")");
+    say(context + "would write " + files_text(report) + " from " + counted(report.inputs.size(), "file") +
+        " (first: " + report.inputs.front().string() + ")");
     if (!plan.json) std::cout << plan_table(report.plan);
     return;
   }
   const MapStatistics& counts = report.statistics;
   const auto line = [&](std::size_t count, const std::string& what, const char* noun = "texel") {
-    if (count > 0) print_message(kProgram, context + counted(count, noun) + what);
+    if (count > 0) say(context + counted(count, noun) + what);
   };
   const std::string by = plan.list.has_several ? "" : " by " + converter_text(chosen);
-  if (counts.texel_count == 0) print_message(kProgram, context + "copied: " + files_text(report));
+  if (counts.texel_count == 0) say(context + "copied: " + files_text(report));
   line(counts.texel_count, " in " + fixed(report.seconds, 2) + " s" + by + ": " + files_text(report));
-  if (plan.verbose && !report.left_behind.empty())
-    print_message(kProgram, context + left_behind_text(report));
+  if (plan.verbose && !report.left_behind.empty()) say(context + left_behind_text(report));
   print_confidence(context, *plan.sets(), report, plan.verbose);
   const auto is_told = [&](std::size_t count) {
     return plan.verbose || !plan.list.has_several ||
@@ -169,12 +156,11 @@ std::string error_text(const AssetMaterial& material) {
 void print_material(const AssetMaterial& material, const std::string& context, bool dry_run, bool quiet) {
   if (!quiet)
     for (const std::string& warning : material.warnings)
-      print_message(kProgram, "warning: " + context + material.title() + ": " + warning);
+      say("warning: " + context + material.title() + ": " + warning);
   if (material.state == MaterialState::kFailed)
-    print_message(kProgram, context + material.title() + ": failed: " + material.failure);
+    say(context + material.title() + ": failed: " + material.failure);
   if (material.state == MaterialState::kConverted && dry_run && !quiet)
-    print_message(kProgram,
-                  context + material.title() + ": would become " + material.becomes + error_text(material));
+    say(context + material.title() + ": would become " + material.becomes + error_text(material));
 }
 
 std::string outcome_text(const JobReport& report, bool dry_run) {
@@ -229,14 +215,14 @@ void print_job(const ConvertPlan& plan, const JobReport& report, WarningKinds& w
     for (const std::string& warning : report.warnings)
       if (const std::string text = (is_asset ? place : "") + warning;
           plan.verbose || !plan.list.has_several || warnings.is_new(text))
-        print_message(kProgram, "warning: " + text);
-  if (report.failure) return print_message(kProgram, (is_asset ? "" : place) + "failed: " + *report.failure);
+        say("warning: " + text);
+  if (report.failure) return say((is_asset ? "" : place) + "failed: " + *report.failure);
   if (report.was_done) return;
   for (const AssetMaterial& material : report.materials)
     print_material(material, place, plan.dry_run, plan.quiet);
   if (plan.quiet) return;
   if (is_asset)
-    print_message(kProgram, place + outcome_text(report, plan.dry_run));
+    say(place + outcome_text(report, plan.dry_run));
   else
     print_set(plan, place, report);
 }
@@ -253,8 +239,8 @@ void print_colors(const ColorNotes& colors, bool has_several) {
         phrase += is_written ? " (--output-color-space)" : " (--color-space)";
       if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
         phrase += is_written ? " (as in the source map)" : " (as the file's tag states)";
-      const auto known = std::find_if(phrases.begin(), phrases.end(),
-                                      [&](const auto& entry) { return entry.first == phrase; });
+      const auto known =
+          std::ranges::find_if(phrases, [&](const auto& entry) { return entry.first == phrase; });
       if (known == phrases.end())
         phrases.emplace_back(phrase, count);
       else
@@ -264,7 +250,7 @@ void print_colors(const ColorNotes& colors, bool has_several) {
   for (const auto& [phrase, count] : phrases)
     text += (text.empty() ? "" : ", ") + phrase + (has_several ? " in " + counted(count, "map") : "");
   if (text.empty()) return;
-  print_message(kProgram, "color: " + text + "; --color-space and --output-color-space change this");
+  say("color: " + text + "; --color-space and --output-color-space change this");
 }
 
 }  // namespace remap

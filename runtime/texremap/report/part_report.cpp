@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
 #include "core/system.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"

@@ -9,7 +9,7 @@
 
 #include "core/json.hpp"
 #include "texremap/options/part.hpp"
-#include "texremap/plan/conversion_note.hpp"
+#include "texremap/plan/converter_text.hpp"
 #include "texremap/plan/manifest.hpp"
 
 namespace remap {

@@ -1,26 +1,24 @@
-#include "texremap/report/report_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string_view>
 
 #include "command_line/progress.hpp"
-#include "command_line/run_app.hpp"
 #include "convert/transfer.hpp"
 #include "core/base64.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/json_field.hpp"
+#include "core/number_text.hpp"
 #include "core/packed_values.hpp"
-#include "core/report_text.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/environment.hpp"
 #include "look/scene.hpp"
 #include "remap/version.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/report/job_looks.hpp"
+#include "texremap/report/reporter.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/image_library.hpp"
@@ -257,7 +255,7 @@ class ReportPage {
     json_["notes"] = notes;
     for (const auto& [key, url] : images_) json_["images"][key] = url;
     return filled(kReportHtml, {{"TITLE", escaped(title())},
-                                {"VERSION", std::string(kProgram) + " " + kVersion},
+                                {"VERSION", std::string("texremap ") + kVersion},
                                 {"STYLE", std::string(kViewerStyle)},
                                 {"SCRIPT", std::string(kViewerScript)},
                                 {"DATA", script_text(json_)}});
@@ -357,7 +355,7 @@ void write_report_page(const ConvertPlan& plan, const std::vector<JobReport>& re
     write_file(plan.report, ReportPage(plan, reports).html());
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    print_message(kProgram, "warning: " + std::string(error.what()));
+    say("warning: " + std::string(error.what()));
   }
 }
 

@@ -4,22 +4,18 @@
 #include <iomanip>
 #include <iostream>
 
-#include "command_line/run_app.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
-#include "core/report_text.hpp"
+#include "core/number_text.hpp"
+#include "core/plain_text.hpp"
 #include "remap/conversion.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/options/convert_options.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/plan/converter_text.hpp"
-#include "texremap/report/job_json.hpp"
 #include "texremap/report/part_report.hpp"
 
 namespace remap {
 namespace {
-
-void say(const std::string& text) { print_message(kProgram, text); }
 
 void print_messages(const ConvertPlan& plan) {
   if (plan.quiet) return;

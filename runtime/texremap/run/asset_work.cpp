@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/stopwatch.hpp"
+#include "core/system.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/plan/asset_files.hpp"
 #include "texremap/plan/asset_formats.hpp"
@@ -15,29 +15,6 @@
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
-
-// A SharedCopies lets the first of several assets copy a shared file. The others wait for the whole file.
-class SharedCopies {
- public:
-  void copy(const ResourceCopy& copy) {
-    const std::shared_ptr<std::mutex> own = lock_of(copy.to);
-    const std::lock_guard lock(*own);
-    std::error_code ignored;
-    if (fs::is_regular_file(copy.to, ignored) && are_same_files(copy.from, copy.to)) return;
-    copy_whole_file(copy.from, copy.to);
-  }
-
- private:
-  std::shared_ptr<std::mutex> lock_of(const fs::path& path) {
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<std::mutex>& own = locks_[path.lexically_normal()];
-    if (!own) own = std::make_shared<std::mutex>();
-    return own;
-  }
-
-  std::mutex mutex_;
-  std::map<fs::path, std::shared_ptr<std::mutex>> locks_;
-};
 
 std::string inputs_hash_of(const FileSource& source, const AssetWork& asset,
                            const std::vector<AssetResource>& resources) {
@@ -84,7 +61,8 @@ class AssetWorker {
       const fs::path image = files.output(file.path);
       report.results.push_back({image, {}, false});
       std::error_code ignored;
-      if (!fs::is_regular_file(image, ignored) || !have_same_bytes(image, file.bytes))
+      if (!fs::is_regular_file(image, ignored) ||
+          !have_same_bytes(FileSource(image), MemorySource(file.bytes)))
         folder_.require_free(image);
       folder_.take(image, job.owner);
     }
@@ -134,7 +112,7 @@ class AssetWorker {
     }
     for (const std::unique_ptr<NewFile>& file : files) file->finish();
     folder_.begin(report.copies);  // a later run then knows that it wrote them
-    for (const ResourceCopy& copy : beside.copies) copies_.copy(copy);
+    for (const ResourceCopy& file : beside.copies) copy(file);
     const Flush flush = folder_.has_journal() ? Flush::kNo : Flush::kYes;
     std::vector<FinishedFile> finished;
     std::vector<fs::path> paths;
@@ -147,10 +125,24 @@ class AssetWorker {
     });
   }
 
+  // Copies a file that several assets may share. The first of them copies it, and the others wait for the
+  // whole file.
+  void copy(const ResourceCopy& copy) {
+    std::unique_lock all(mutex_);
+    std::mutex& own = locks_[copy.to.lexically_normal()];
+    all.unlock();
+    const std::lock_guard lock(own);
+    std::error_code ignored;
+    if (fs::is_regular_file(copy.to, ignored) && have_same_bytes(FileSource(copy.from), FileSource(copy.to)))
+      return;
+    copy_whole_file(copy.from, copy.to);
+  }
+
   const ConvertPlan& plan_;
   const AssetOptions options_;
   OutputFolder& folder_;
-  SharedCopies copies_;
+  std::mutex mutex_;                      // of `locks_`
+  std::map<fs::path, std::mutex> locks_;  // keyed by the copy; entries are never removed
 };
 
 }  // namespace

@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "command_line/interruption.hpp"
-#include "core/errors.hpp"
+#include "command_line/progress.hpp"
 #include "core/packed_values.hpp"
 #include "core/parallel.hpp"
 #include "core/system.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {

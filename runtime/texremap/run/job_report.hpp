@@ -1,4 +1,4 @@
-// This file holds the report of a job, or of a set with all its tiles.
+// This file holds the report of a job, or of a set with all its tiles, and the plan that a dry run shows.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,31 @@
 #include <vector>
 
 #include "assets/document/asset.hpp"
+#include "remap/model.hpp"
 #include "stages/dielectric_f0.hpp"
 #include "texremap/plan/job.hpp"
-#include "texremap/run/planned_roles.hpp"
+#include "texture/target_plan.hpp"
 
 namespace remap {
+
+// A PlannedRole is one role of a set. Fields that do not apply are empty.
+struct PlannedRole {
+  std::string role;      // `roughness`, `base_color`; empty for files without one
+  std::string input;     // `rock_arm.png:G`, `0.04`
+  std::string encoding;  // encoding of the input: `srgb`, `linear`, `glossiness`
+  std::string happens;   // `converted`, `kept`, `read`, `made`, `carried`, `copied`, `left behind`
+  std::string output;    // names of the results that hold the role
+  bool operator==(const PlannedRole&) const = default;
+};
+
+// `own_width` is the encoding of the source if the set does not state one. `width` is the encoding of the
+// results.
+std::vector<PlannedRole> planned_roles(const TextureSet& set, const TargetPlan& plan,
+                                       const TargetChoice& choice, const SetWork& work,
+                                       RoughnessEncoding own_width, RoughnessEncoding width);
+
+// Returns the rows in columns, under a heading. Every line begins with two spaces.
+std::string plan_table(const std::vector<PlannedRole>& roles);
 
 // A ColorNote is the color space in which maps of a color are read or written, with its reason. The reason is
 // the user, the file (its tag, or for a result the map that it follows), or the usual one.

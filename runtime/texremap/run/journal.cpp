@@ -7,7 +7,6 @@
 #include "core/files.hpp"
 #include "core/json_field.hpp"
 #include "core/plain_text.hpp"
-#include "core/safe_relative.hpp"
 #include "core/system.hpp"
 #include "texture/content_hash.hpp"
 
@@ -233,10 +232,9 @@ struct Journal::State {
   }
   void require_own() const {
     if (!content.owner || content.owner->hash == conversion.hash) return;
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": holds results of another conversion, from " +
-                    shown_note(content.owner->source) + " to " + shown_note(content.owner->target) + " (" +
-                    difference(*content.owner, conversion) + "; choose another folder, or use --force)");
+    throw output_error(folder.string() + ": holds results of another conversion, from " +
+                       shown_note(content.owner->source) + " to " + shown_note(content.owner->target) + " (" +
+                       difference(*content.owner, conversion) + "; choose another folder, or use --force)");
   }
   void append(const Json& json);
 };
@@ -343,8 +341,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
   for (const FinishedFile& file : files) {
     std::error_code ignored;
     if (!force && fs::exists(file.path, ignored) && state_->entry_of_existing(file.path) == nullptr)
-      throw Error(ErrorKind::kOutput,
-                  file.path.string() + ": another run wrote this file meanwhile (--force overwrites)");
+      throw output_error(file.path.string() + ": another run wrote this file meanwhile (--force overwrites)");
   }
   rename();
   state_->append(line);

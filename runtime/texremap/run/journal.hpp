@@ -26,7 +26,7 @@
 
 #include "core/input_file.hpp"
 #include "texremap/options/part.hpp"
-#include "texremap/plan/conversion_note.hpp"
+#include "texremap/plan/converter_text.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {

@@ -1,10 +1,8 @@
-#include "texremap/run/output_folder.hpp"
-
 #include <set>
 
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "remap/error.hpp"
+#include "texremap/run/run_jobs.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;

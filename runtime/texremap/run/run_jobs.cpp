@@ -10,12 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
+#include "core/number_text.hpp"
 #include "core/packed_values.hpp"
-#include "core/report_text.hpp"
 #include "sets/folder_walk.hpp"
 #include "texremap/run/job_processes.hpp"
 #include "texture/image_library.hpp"

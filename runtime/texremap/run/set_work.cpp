@@ -2,12 +2,13 @@
 #include <functional>
 #include <memory>
 
-#include "check/color_issue.hpp"
-#include "command_line/interruption.hpp"
+#include "check/rules.hpp"
+#include "command_line/progress.hpp"
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
-#include "core/report_text.hpp"
-#include "core/stopwatch.hpp"
+#include "core/number_text.hpp"
+#include "core/system.hpp"
 #include "remap/version.hpp"
 #include "texremap/plan/conversion_request.hpp"
 #include "texremap/run/run_jobs.hpp"
@@ -25,7 +26,7 @@ using OpenFiles = std::vector<std::shared_ptr<const InputFile>>;
 OpenFiles files_of(const TextureSet& set) {
   OpenFiles files;
   for (const ImageReader& map : set.maps)
-    if (std::ranges::find(files, map.file()) == files.end()) files.push_back(map.file());
+    if (!contains(files, map.file())) files.push_back(map.file());
   return files;
 }
 
@@ -73,9 +74,8 @@ void require_not_converted(const TextureSet& set, const BuiltConversion& chosen,
     std::optional<std::string> model = map.noted_metadata("remap:target");
     if (!model) model = journals.target_of(*map.file());
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
-      throw Error(ErrorKind::kUsage, map.path().string() + ": was already converted to " + *model +
-                                         ", but would be read as " + source +
-                                         " (--force converts it anyway)");
+      throw usage_error(map.path().string() + ": was already converted to " + *model +
+                        ", but would be read as " + source + " (--force converts it anyway)");
   }
 }
 

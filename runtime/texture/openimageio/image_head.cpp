@@ -1,14 +1,14 @@
-#include "texture/openimageio/image_head.hpp"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
 #include <limits>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
+#include "core/number_text.hpp"
 #include "core/plain_text.hpp"
-#include "core/report_text.hpp"
+#include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
 namespace {
@@ -106,10 +106,10 @@ void look_at_bmp(const std::string& begin, const ImageBytes& image, const std::s
                                          kBits = {1, 4, 8, 16, 24, 32};
   const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
                     (compression == 3 && (bits == 16 || bits == 32));
-  if (std::ranges::find(kHeaders, header) == kHeaders.end())
+  if (!contains(kHeaders, header))
     throw input_error(context + ": is damaged, or of an unknown kind: a header of " + std::to_string(header) +
                       " bytes");
-  if (!fits || std::ranges::find(kBits, bits) == kBits.end())
+  if (!fits || !contains(kBits, bits))
     throw input_error(context + ": is damaged, or of an unknown kind: compression " +
                       std::to_string(compression) + " of " + std::to_string(bits) + " bits");
   if (pixels > image.size) refuse_damaged(context, "its texels would begin behind its end");
@@ -265,8 +265,7 @@ ImageHead checked_head(const ImageBytes& image, const std::string& context, Imag
                        : use == ImageUse::kAsset
                            ? "is not an image of a known format (PNG, JPEG, WebP, BMP, TIFF, Targa)"
                            : "cannot be read as an image: unknown format (PNG, JPEG, WebP, BMP, TIFF, Targa, "
-                             "OpenEXR and Radiance HDR "
-                             "are read)"));
+                             "OpenEXR and Radiance HDR are read)"));
   }
   if (head.format == "png") {
     look_at_png(image, context, head);

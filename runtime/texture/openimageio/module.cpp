@@ -1,6 +1,5 @@
 // This file holds the function of the module that a program calls.
 #include "remap/version.hpp"
-#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {

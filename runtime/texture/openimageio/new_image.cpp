@@ -73,9 +73,7 @@ class OpenedNewImage : public NewImage {
   void commit(Flush flush) override { file_->commit(flush); }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kOutput, path_.string() + ": " + what);
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw output_error(path_.string() + ": " + what); }
   const OIIO::ImageSpec& spec() const {
     return specs_[static_cast<std::size_t>(part_)][static_cast<std::size_t>(level_)];
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "remap/error.hpp"
+#include "core/errors.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -40,7 +40,7 @@ void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& name
   spec.set_format(spec.channelformat(0));  // also removes the types of single channels
   spec.nchannels = static_cast<int>(names.size());
   spec.channelnames = names;
-  const auto alpha = std::find(names.begin(), names.end(), "A");
+  const auto alpha = std::ranges::find(names, "A");
   spec.alpha_channel = alpha == names.end() ? -1 : static_cast<int>(alpha - names.begin());
   if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // alpha is data here, not opacity
   spec.z_channel = -1;
@@ -89,8 +89,7 @@ void suit_tiff(OIIO::ImageSpec& spec) {
   const auto is_iptc = [](const OIIO::ParamValue& value) {
     return value.name().string().starts_with("IPTC:");
   };
-  if (std::any_of(spec.extra_attribs.begin(), spec.extra_attribs.end(), is_iptc))
-    spec.attribute("tiff:write_iptc", 1);
+  if (std::ranges::any_of(spec.extra_attribs, is_iptc)) spec.attribute("tiff:write_iptc", 1);
   leave_creator_to_writer(spec);
   if (spec.format == OIIO::TypeHalf) spec.attribute("tiff:half", 1);
 }
@@ -166,7 +165,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
                             const std::filesystem::path& path) {
   const std::string format = output.format_name();
   const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::kOutput, path.string() + ": format " + format + " " + what);
+    throw output_error(path.string() + ": format " + format + " " + what);
   };
   OIIO::ImageSpec spec = model;
   for (const char* name : kPixelSummaries) spec.erase_attribute(name);

@@ -12,10 +12,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include "core/contains.hpp"
 #include "core/errors.hpp"
 #include "core/files.hpp"
 #include "core/plain_text.hpp"
-#include "texture/openimageio/image_head.hpp"
 #include "texture/openimageio/openimageio.hpp"
 
 namespace remap {
@@ -93,9 +93,9 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
     const std::string name = spec.channel_name(c);
     const auto type = pixel_type(spec.channelformat(c));
     if (!type)
-      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " has the unsupported type " +
-                                         spec.channelformat(c).c_str() +
-                                         " (use integers of up to 32 bits, half, float or double)");
+      throw input_error(path.string() + ": channel " + name + " has the unsupported type " +
+                        spec.channelformat(c).c_str() +
+                        " (use integers of up to 32 bits, half, float or double)");
     layout.channels.push_back({name, *type, layout.texel_bytes});
     layout.texel_bytes += byte_count(*type);
   }
@@ -162,7 +162,7 @@ class StreamProxy : public OIIO::Filesystem::IOFile {
 // Returns true if OpenImageIO opens a file of this format again, by its name, to go back to an earlier row.
 bool starts_again(const ImageLayout& layout) {
   constexpr std::array<std::string_view, 4> kFormats = {"hdr", "jpeg", "png", "tiff"};
-  return layout.tile_height == 0 && std::ranges::find(kFormats, layout.format) != kFormats.end();
+  return layout.tile_height == 0 && contains(kFormats, layout.format);
 }
 
 class OpenedImage : public StoredImage {

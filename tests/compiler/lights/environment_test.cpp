@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/files.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/image.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scene.hpp"

@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/report/scaled_fit.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/lit_sphere.hpp"
 #include "look/scene.hpp"
 #include "remap/error.hpp"

@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/warp_sets.hpp"

@@ -23,7 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/renderer/oren_nayar.hpp"
-#include "look/brdf_models.hpp"
+#include "look/brdf.hpp"
 #include "look/material_looks.hpp"
 #include "renderer/renderer.hpp"
 

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
-#include "core/owner_tag.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/plain_text.hpp"
 #include "support/error_of.hpp"

@@ -14,7 +14,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
-#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/error.hpp"
 

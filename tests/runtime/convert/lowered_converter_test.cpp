@@ -6,7 +6,7 @@
 #include "lower/interpreter.hpp"
 #include "lower/lower.hpp"
 #include "runtime/convert/texel_rows.hpp"
-#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 #include "support/random_models.hpp"

@@ -10,7 +10,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/owner_tag.hpp"
 #include "remap/error.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"

@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include "core/json_field.hpp"
-#include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/plain_text.hpp"
 #include "remap/error.hpp"

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "look/image_similarity.hpp"
+#include "look/image.hpp"
 #include "look/scene.hpp"
 #include "remap/error.hpp"
 

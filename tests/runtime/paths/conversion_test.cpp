@@ -12,7 +12,7 @@
 #include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
-#include "stages/brdf_stage.hpp"
+#include "stages/stage.hpp"
 #include "support/error_of.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"

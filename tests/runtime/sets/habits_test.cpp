@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "remap/error.hpp"
 #include "runtime/sets/set_session.hpp"
-#include "sets/name_pieces.hpp"
+#include "sets/naming.hpp"
 #include "support/error_of.hpp"
 
 using namespace remap;
@@ -322,7 +322,8 @@ TEST_CASE("naming file: errors name the field and the expected value") {
   CHECK(complaint("[") != "");
   CHECK(complaint("[]") == "names.json: expected an object, found []");
   CHECK(complaint("{}") == "names.json: has no field \"habits\"");
-  CHECK(complaint(R"({"habits": []})") == "names.json: habits: expected a list of at least 1 entry, found []");
+  CHECK(complaint(R"({"habits": []})") ==
+        "names.json: habits: expected a list of at least 1 entry, found []");
   CHECK(complaint(R"({"habit": []})") == "names.json: unknown field 'habit' (did you mean habits?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "role": "rougness"})")) ==
         "names.json: habits[0].rules[0].role: unknown role 'rougness' (did you mean roughness?)");

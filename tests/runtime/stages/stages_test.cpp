@@ -16,7 +16,7 @@
 #include "remap/surface.hpp"
 #include "remap/warp.hpp"
 #include "stages/kernels.hpp"
-#include "stages/workflow_stages.hpp"
+#include "stages/stage.hpp"
 #include "support/error_of.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_rows.hpp"

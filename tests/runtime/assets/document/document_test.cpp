@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 
 #include "assets/document/mtl_document.hpp"
-#include "assets/document/text_encoding.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "assets/maps/workflow_values.hpp"
+#include "assets/maps/gltf_maps.hpp"
 #include "core/base64.hpp"
 #include "runtime/assets/gltf_containers.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "assets/maps/legacy_material.hpp"
+#include "assets/maps/legacy_maps.hpp"
 #include "assets/maps/map_pixels.hpp"
 #include "core/input_file.hpp"
 #include "core/number_text.hpp"

@@ -2,7 +2,7 @@
 // public bug reports.
 #include <catch2/catch.hpp>
 
-#include "assets/maps/legacy_material.hpp"
+#include "assets/maps/legacy_maps.hpp"
 #include "assets/obj/obj_gltf.hpp"
 #include "runtime/assets/mtl_texts.hpp"
 

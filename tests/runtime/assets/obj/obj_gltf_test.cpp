@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "assets/maps/legacy_material.hpp"
+#include "assets/maps/legacy_maps.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/input_file.hpp"
 #include "runtime/assets/mtl_texts.hpp"
