@@ -151,7 +151,8 @@ GltfMaps::GltfMaps(GltfWorkflow workflow, const GltfMaterial& material, const Us
 }
 
 MaterialTextures& require_images(MaterialTextures* textures) {
-  if (textures == nullptr) throw input_error("has textures, but no reader of images was given (pass AssetResources)");
+  if (textures == nullptr)
+    throw input_error("has textures, but no reader of images was given (pass AssetResources)");
   return *textures;
 }
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "assets/document/mtl_document.hpp"
+#include "assets/document/text_edits.hpp"
 #include "assets/mtl/mtl_material.hpp"
 #include "assets/obj/obj_mesh.hpp"
 #include "core/errors.hpp"
