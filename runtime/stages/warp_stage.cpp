@@ -4,6 +4,8 @@
 
 #include "remap/warp.hpp"
 #include "remap/workflow.hpp"
+#include "stages/kernels.hpp"
+#include "stages/packed_warp.hpp"
 #include "stages/stage.hpp"
 
 namespace remap {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "remap/workflow.hpp"
+#include "stages/kernels.hpp"
 #include "stages/stage.hpp"
 #include "stages/workflow_conventions.hpp"
 
